@@ -1,0 +1,28 @@
+// Conformal parameterization of a disc, and the curvature tensor carried into the plane.
+#pragma once
+
+#include "anisomesh/progress.hh"
+#include "anisomesh/surface.hh"
+
+namespace anisomesh {
+
+struct FlattenReport {
+  double mean_conformal_distortion =
+      1;  ///< area-weighted mean of the ratio of singular values; 1 is conformal
+  double max_conformal_distortion = 1;
+  double min_area_stretch = 1, max_area_stretch = 1;  ///< over the vertices
+  bool free_boundary = true;      ///< false if the border had to be mapped to a circle to get a valid map
+  size_t repaired_triangles = 0;  ///< flipped by the free-boundary solution, then repaired
+  double seconds = 0;
+};
+
+/// Maps a disc-like patch to the plane, conformally as far as possible, with no flipped triangle and no
+/// overlap. [ACDLD03, section 2.2; Lévy et al. 2002, Desbrun et al. 2002]
+///
+/// Reads: points, tensor, normal. Writes: uv, area_stretch, tensor2d (properties.hh), and the same uv as
+/// OpenMesh's 2D texture coordinates where the mesh has them requested. \pre one component with one border
+/// loop \throw CannotProcess if the patch is no disc or no valid map was found; SolverFailure; InvalidInput;
+/// Cancelled
+FlattenReport flatten(const SurfaceRef& surface, const Progress& progress = {});
+
+}  // namespace anisomesh

@@ -1,0 +1,42 @@
+// Reading surfaces, writing results: full precision where the format allows it, never half a file.
+#pragma once
+
+#include <OpenMesh/Core/Mesh/DefaultPolyMesh.hh>
+#include <OpenMesh/Core/Mesh/DefaultTriMesh.hh>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "anisomesh/errors.hh"
+
+namespace anisomesh {
+
+struct ReadReport {
+  size_t merged_vertices = 0;        ///< STL corners at the same place made one vertex
+  size_t triangulated_polygons = 0;  ///< faces of more than three corners
+  size_t degenerate_faces = 0;       ///< faces with a corner twice, dropped
+  size_t duplicated_vertices =
+      0;  ///< made because a vertex or edge is not manifold or two faces disagree on orientation
+  size_t isolated_vertices = 0;  ///< dropped
+};
+
+/// Reads OBJ, OFF, PLY, STL or OM (with all its properties) as a triangle mesh with vertex, edge and face
+/// status. \throw InvalidInput naming the file, the element and the way out
+OpenMesh::TriMesh read_surface(const std::string& path, ReadReport* report = nullptr);
+
+/// Reads a polygonal mesh (OBJ, OFF, PLY, OM) as it is. \throw InvalidInput
+OpenMesh::PolyMesh read_polygons(const std::string& path);
+
+/// Writes a mesh as OBJ, OFF, PLY (binary, doubles) or OM (with all persistent properties), by the ending of
+/// `path`: first to a temporary file beside it, then renamed, so that an existing file is replaced whole or
+/// not at all. \throw InvalidInput if the ending is unknown or the place cannot be written
+void write_mesh(const OpenMesh::TriMesh& mesh, const std::string& path);
+void write_mesh(const OpenMesh::PolyMesh& mesh, const std::string& path);
+/// Writes text the same safe way.
+void write_text(const std::string& text, const std::string& path);
+
+/// Feature edges as vertex index pairs (0-based): from an OBJ's `l` elements (1-based there), or from text
+/// lines "i j". \throw InvalidInput
+std::vector<std::pair<int, int>> read_feature_edges(const std::string& path);
+
+}  // namespace anisomesh

@@ -1,0 +1,73 @@
+// Lines of curvature and isotropic samples: what they are, how they are kept on a mesh, and the two stages
+// that make them.
+#pragma once
+
+#include <vector>
+
+#include "anisomesh/density.hh"
+#include "anisomesh/progress.hh"
+#include "anisomesh/surface.hh"
+
+namespace anisomesh {
+
+enum class LineKind { min = 0, max = 1 };  ///< a min line runs along gamma_min
+
+/// Why a line ended.
+enum class LineEnd { umbilic = 0, feature = 1, border = 2, loop = 3, too_close = 4, step_limit = 5 };
+
+/// A polyline on the surface. Where it crosses from one face to the next there is no point: consecutive
+/// points may lie some faces apart, but always a small fraction of the spacing.
+struct Line {
+  LineKind kind = LineKind::min;
+  bool closed = false;  ///< the last point joins the first
+  LineEnd begin_reason = LineEnd::border, end_reason = LineEnd::border;
+  std::vector<SurfacePoint> points;
+};
+
+/// All lines and isotropic samples of a surface.
+struct LineNetwork {
+  std::vector<Line> lines;
+  std::vector<SurfacePoint> isotropic_samples;
+};
+
+/// Reads the network from the mesh's properties. \throw InvalidInput if it is missing or does not fit the
+/// mesh
+LineNetwork read_lines(const SurfaceRef& surface);
+/// Writes the network to the mesh's properties (line_table, line_faces, line_barycentrics, isotropic_*).
+void write_lines(const SurfaceRef& surface, const LineNetwork& network);
+
+struct TraceOptions {
+  DensityOptions density;
+  double stop_fraction =
+      0.5;  ///< a line ends when nearer to one of its kind than this fraction of the spacing; (0, 1)
+  unsigned seed = 1;      ///< of the random coverage check
+  void validate() const;  ///< \throw InvalidOption
+};
+
+struct TraceReport {
+  size_t min_lines = 0, max_lines = 0;
+  size_t closed_lines = 0;
+  size_t points = 0;
+  size_t coverage_seeds = 0;  ///< lines that the random coverage check started
+  size_t ends[6] = {};        ///< how many ends for each LineEnd
+  double seconds = 0;
+};
+
+/// Traces the network of lines of curvature. [ACDLD03, section 3.1]
+/// Reads: uv, area_stretch, tensor2d, umbilic, umbilic_position, edge feature status. Writes: the lines
+/// (write_lines()). \throw InvalidOption, InvalidInput, Cancelled
+TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& options = {},
+                        const Progress& progress = {});
+
+struct IsotropicReport {
+  size_t from_umbilics = 0, random = 0;
+  double seconds = 0;
+};
+
+/// Chooses isotropic samples among the umbilics by spacing, and adds random ones where flat or spherical
+/// regions stay empty. [ACDLD03, section 3.2] Reads: as trace_lines(), and the lines. Writes: isotropic
+/// samples (write_lines()).
+IsotropicReport place_isotropic_samples(const SurfaceRef& surface, const TraceOptions& options = {},
+                                        const Progress& progress = {});
+
+}  // namespace anisomesh

@@ -1,0 +1,44 @@
+// From lines to polygons.
+#pragma once
+
+#include <OpenMesh/Core/Mesh/DefaultPolyMesh.hh>
+#include <vector>
+
+#include "anisomesh/progress.hh"
+#include "anisomesh/surface.hh"
+
+namespace anisomesh {
+
+/// Why an output vertex is there.
+enum class Origin { crossing = 0, feature = 1, corner = 2, border = 3, isotropic = 4, line = 5 };
+
+/// What an output edge is.
+enum class EdgeKind { min = 0, max = 1, feature = 2, border = 3, conforming = 4 };
+
+struct MeshOptions {
+  int max_degree =
+      4;  ///< split polygons until none has more corners; >= 3; 0: leave them as extracted ("--polygons")
+  bool convex = true;                ///< split polygons until each is convex
+  bool flip_edges = true;            ///< flip edges at isotropic samples where it lowers the error
+  double corner_angle_degrees = 45;  ///< as in feature_skeleton()
+  void validate() const;             ///< \throw InvalidOption
+};
+
+struct MeshReport {
+  size_t vertices = 0, faces = 0, quads = 0, triangles = 0;
+  size_t crossings = 0;     ///< intersections of lines found
+  size_t trimmed = 0;       ///< samples removed as dangling or isolated
+  size_t straightened = 0;  ///< samples removed on chains
+  size_t convexity_splits = 0, conforming_edges = 0;
+  double arrangement_seconds = 0, decimation_seconds = 0, polygon_seconds = 0;
+  double seconds = 0;
+};
+
+/// Builds the polygonal mesh from the lines, samples and features on the surface. [ACDLD03, section 4]
+/// Reads: uv, the lines and isotropic samples, edge feature status. Writes nothing on the input; the result
+/// carries origin, source_face, source_barycentric and edge_kind (properties.hh), and edge feature status.
+/// \throw InvalidOption, InvalidInput, CannotProcess, Cancelled
+OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& options = {},
+                                  MeshReport* report = nullptr, const Progress& progress = {});
+
+}  // namespace anisomesh

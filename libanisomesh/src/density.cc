@@ -1,0 +1,1 @@
+#include "anisomesh/density.hh"

@@ -1,0 +1,1 @@
+#include "anisomesh/remesh.hh"
