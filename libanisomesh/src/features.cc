@@ -1,1 +1,172 @@
 #include "anisomesh/features.hh"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "anisomesh/errors.hh"
+
+namespace anisomesh {
+
+namespace {
+
+using OpenMesh::EdgeHandle;
+using OpenMesh::FaceHandle;
+using OpenMesh::HalfedgeHandle;
+using OpenMesh::TriConnectivity;
+using OpenMesh::VertexHandle;
+
+constexpr double pi = 3.14159265358979323846;
+
+Vec3d area_vector(const SurfaceRef& surface, FaceHandle face) {
+  const auto corners = surface.corners(face);
+  const Vec3d& a = surface.point(corners.vertex[0]);
+  return (surface.point(corners.vertex[1]) - a) % (surface.point(corners.vertex[2]) - a);
+}
+
+/// The angle between two vectors in degrees; 0 where one of them vanishes, so that a face without area makes
+/// no feature.
+double angle_between(const Vec3d& a, const Vec3d& b) { return std::atan2((a % b).norm(), a | b) * 180 / pi; }
+
+bool exceeds_angle(const SurfaceRef& surface, EdgeHandle edge, double angle_degrees) {
+  const auto& mesh = surface.connectivity();
+  const auto h = mesh.halfedge_handle(edge, 0), g = mesh.halfedge_handle(edge, 1);
+  if (mesh.is_boundary(h) || mesh.is_boundary(g)) return false;
+  const Vec3d first = area_vector(surface, mesh.face_handle(h)).normalize_cond();
+  const Vec3d second = area_vector(surface, mesh.face_handle(g)).normalize_cond();
+  return angle_between(first, second) > angle_degrees;
+}
+
+std::vector<EdgeHandle> listed_edges(const TriConnectivity& mesh,
+                                     const std::vector<std::pair<int, int>>& pairs) {
+  std::vector<EdgeHandle> edges;
+  const int count = static_cast<int>(mesh.n_vertices());
+  for (const auto& [a, b] : pairs) {
+    const std::string name = "feature edge (" + std::to_string(a) + ", " + std::to_string(b) + ")";
+    if (a < 0 || b < 0 || a >= count || b >= count)
+      throw InvalidInput(name + ": the mesh has vertices 0 to " + std::to_string(count - 1) + " only");
+    const auto halfedge = mesh.find_halfedge(VertexHandle(a), VertexHandle(b));
+    if (!halfedge.is_valid())
+      throw InvalidInput(name +
+                         " is no edge of the mesh; check that the indices start at 0 and that the file "
+                         "belongs to this mesh");
+    edges.push_back(mesh.edge_handle(halfedge));
+  }
+  return edges;
+}
+
+/// The halfedges of the feature graph that leave a vertex.
+std::vector<HalfedgeHandle> graph_halfedges(const TriConnectivity& mesh, VertexHandle vertex) {
+  std::vector<HalfedgeHandle> result;
+  for (const auto h : mesh.voh_range(vertex))
+    if (is_feature_or_border(mesh, mesh.edge_handle(h))) result.push_back(h);
+  return result;
+}
+
+Vec3d direction(const SurfaceRef& surface, HalfedgeHandle halfedge) {
+  const auto& mesh = surface.connectivity();
+  return surface.point(mesh.to_vertex_handle(halfedge)) - surface.point(mesh.from_vertex_handle(halfedge));
+}
+
+class SkeletonBuilder {
+ public:
+  SkeletonBuilder(const SurfaceRef& surface, double corner_angle_degrees)
+      : surface_(surface),
+        mesh_(surface.connectivity()),
+        is_corner_(mesh_.n_vertices(), 0),
+        used_(mesh_.n_edges(), 0) {
+    for (const auto v : mesh_.vertices()) {
+      const auto leaving = graph_halfedges(mesh_, v);
+      if (leaving.empty()) continue;
+      // Border and crease are different curves even where one runs smoothly into the other.
+      const bool corner =
+          leaving.size() != 2 || border(leaving[0]) != border(leaving[1]) ||
+          180 - angle_between(direction(surface, leaving[0]), direction(surface, leaving[1])) >
+              corner_angle_degrees;
+      if (!corner) continue;
+      is_corner_[static_cast<size_t>(v.idx())] = 1;
+      skeleton_.corners.push_back(v);
+    }
+  }
+
+  FeatureSkeleton build() {
+    for (const auto corner : skeleton_.corners)
+      for (const auto h : graph_halfedges(mesh_, corner)) follow(h);
+    for (const auto e : mesh_.edges())
+      if (is_feature_or_border(mesh_, e)) follow(mesh_.halfedge_handle(e, 0));
+    return std::move(skeleton_);
+  }
+
+ private:
+  bool border(HalfedgeHandle halfedge) const { return mesh_.is_boundary(mesh_.edge_handle(halfedge)); }
+
+  /// Takes the chain from `first` to the next corner, or all round, unless it is already taken.
+  void follow(HalfedgeHandle first) {
+    if (used_[static_cast<size_t>(mesh_.edge_handle(first).idx())]) return;
+    FeatureCurve curve;
+    curve.border = border(first);
+    const auto start = mesh_.from_vertex_handle(first);
+    HalfedgeHandle current = first;
+    while (true) {
+      used_[static_cast<size_t>(mesh_.edge_handle(current).idx())] = 1;
+      curve.halfedges.push_back(current);
+      const auto tip = mesh_.to_vertex_handle(current);
+      if (tip == start) curve.closed = true;
+      if (tip == start || is_corner_[static_cast<size_t>(tip.idx())]) break;
+      const auto leaving = graph_halfedges(mesh_, tip);
+      const bool back = mesh_.edge_handle(leaving[0]) == mesh_.edge_handle(current);
+      current = leaving[back ? 1 : 0];
+    }
+    // A loop that hangs on one corner is a curve from that corner to itself.
+    if (is_corner_[static_cast<size_t>(start.idx())]) curve.closed = false;
+    skeleton_.curves.push_back(std::move(curve));
+  }
+
+  const SurfaceRef& surface_;
+  const TriConnectivity& mesh_;
+  std::vector<char> is_corner_, used_;
+  FeatureSkeleton skeleton_;
+};
+
+}  // namespace
+
+void FeatureOptions::validate() const {
+  if (!(angle_degrees >= 0 && angle_degrees < 180))
+    throw InvalidOption("angle_degrees is " + std::to_string(angle_degrees) + ", must be in [0, 180)");
+}
+
+FeatureReport tag_features(const SurfaceRef& surface, const FeatureOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  options.validate();
+  auto& mesh = surface.connectivity();
+  FeatureReport report;
+  std::vector<char> tagged(mesh.n_edges(), 0);
+  if (options.keep_existing && mesh.has_edge_status())
+    for (const auto e : mesh.edges()) tagged[static_cast<size_t>(e.idx())] = mesh.status(e).feature();
+  for (const auto e : listed_edges(mesh, options.edges)) tagged[static_cast<size_t>(e.idx())] |= 2;
+  if (options.angle_degrees > 0)
+    for (const auto e : mesh.edges())
+      if (exceeds_angle(surface, e, options.angle_degrees)) tagged[static_cast<size_t>(e.idx())] |= 4;
+  if (!mesh.has_edge_status()) mesh.request_edge_status();
+  for (const auto e : mesh.edges()) {
+    const char tag = tagged[static_cast<size_t>(e.idx())];
+    mesh.status(e).set_feature(tag != 0);
+    if (mesh.is_boundary(e)) continue;
+    report.feature_edges += tag != 0;
+    report.by_list += (tag & 2) != 0;
+    report.by_angle += (tag & 4) != 0;
+  }
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+FeatureSkeleton feature_skeleton(const SurfaceRef& surface, double corner_angle_degrees) {
+  return SkeletonBuilder(surface, corner_angle_degrees).build();
+}
+
+bool is_feature_or_border(const TriConnectivity& mesh, EdgeHandle edge) {
+  return mesh.is_boundary(edge) || (mesh.has_edge_status() && mesh.status(edge).feature());
+}
+
+}  // namespace anisomesh

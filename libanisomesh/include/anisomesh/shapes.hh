@@ -2,10 +2,12 @@
 #pragma once
 
 #include <OpenMesh/Core/Mesh/DefaultTriMesh.hh>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "anisomesh/errors.hh"
+#include "anisomesh/surface.hh"
 
 namespace anisomesh {
 
@@ -23,8 +25,22 @@ struct ShapeOptions {
 /// ellipsoid-cap, monkey-saddle, wave, plane, hemisphere.
 std::vector<std::string> shape_names();
 
-/// A disc-like surface made by code; creases of piecewise smooth shapes are tagged as features. \throw
-/// InvalidOption
+/// A disc-like surface made by code, with vertex, edge and face status; the creases of octa-flower are tagged
+/// as features. docs/shapes.md has the formula of each. \throw InvalidOption
 OpenMesh::TriMesh make_shape(const std::string& name, const ShapeOptions& options = {});
+
+/// A surface given by a formula over a rectangle or the unit disc; its normal is x_u cross x_v.
+struct ParametricPatch {
+  std::function<Vec3d(double u, double v)> position;  ///< of u and v; over the disc, Cartesian
+  enum class Domain { rectangle, disc } domain = Domain::rectangle;
+  double u_min = 0, u_max = 1, v_min = 0, v_max = 1;  ///< the rectangle; the disc is the unit disc
+  /// Disc only: so many rays from the centre, the first along +u, are creases (0 or >= 3).
+  int crease_rays = 0;
+};
+
+/// Meshes a patch with about so many vertices of about equal spacing; a vertex lies on each crease ray's
+/// ends. \param parameters where given, gets (u, v) of each vertex \throw InvalidOption
+OpenMesh::TriMesh mesh_patch(const ParametricPatch& patch, const ShapeOptions& options = {},
+                             std::vector<Vec2d>* parameters = nullptr);
 
 }  // namespace anisomesh
