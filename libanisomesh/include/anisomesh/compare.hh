@@ -9,12 +9,19 @@
 
 namespace anisomesh {
 
+/// Which diagonal splits a polygon whose corners lie in no plane; distances are measured on its triangles.
+enum class FaceDiagonal {
+  shorter,  ///< independent of the order of the corners, and not chosen by looking at the reference
+  longer    ///< the other surface the polygon may stand for: says how much the choice matters
+};
+
 struct CompareOptions {
-  size_t samples = 200000;  ///< points sampled by area on each of the two, besides all vertices; >= 1000
+  size_t samples = 200000;  ///< points sampled by area on each of the two; >= 1000
   unsigned seed = 1;
+  FaceDiagonal diagonal = FaceDiagonal::shorter;
   double anisotropy_threshold =
       0.3;  ///< alignment counts where (|k_max| - |k_min|) / (|k_max| + |k_min|), by magnitude, is above this
-  void validate() const;
+  void validate() const;  ///< \throw InvalidOption
 };
 
 struct Distances {  ///< fraction of the reference's bounding box diagonal
@@ -29,6 +36,7 @@ struct Comparison {
   double mean_normal_deviation_degrees = 0;
 
   size_t vertices = 0, faces = 0, edges = 0;
+  size_t isolated_vertices = 0;  ///< without a face; not counted anywhere else
   std::map<int, size_t> faces_by_degree;
   std::map<int, size_t> vertices_by_valence;
   double quad_fraction = 0;
@@ -50,8 +58,8 @@ struct Comparison {
 
 /// Compares a polygonal result with the triangle mesh it stands for.
 /// Reads: of the reference points, and k_min, k_max, gamma_min, gamma_max where they are there (alignment is
-/// 0 without them). Writes on `result`: vertex property 'anisomesh:error' (double, distance to the reference,
-/// model units). \throw InvalidInput
+/// 0 without them). Writes on `result`: error (distance of the vertex) and face_error (root of the mean
+/// squared distance over the face, both ways), model units. \throw InvalidInput, InvalidOption, Cancelled
 Comparison compare(const SurfaceRef& reference, OpenMesh::PolyMesh& result,
                    const CompareOptions& options = {}, const Progress& progress = {});
 

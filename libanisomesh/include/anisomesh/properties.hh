@@ -92,6 +92,14 @@ inline constexpr OnVertices<Vec3d> source_barycentric{"anisomesh:source_barycent
 /// What the edge is: an EdgeKind (mesher.hh).
 inline constexpr OnEdges<int> edge_kind{"anisomesh:edge_kind", "build_polygons"};
 
+// --- written by compare() on its result
+// --------------------------------------------------------------------------------
+/// Distance of the vertex to the reference, model units.
+inline constexpr OnVertices<double> error{"anisomesh:error", "compare"};
+/// Root of the mean squared distance between the face and the part of the reference nearest to it, both ways,
+/// model units.
+inline constexpr OnFaces<double> face_error{"anisomesh:face_error", "compare"};
+
 }  // namespace property
 
 /// The handle of a property that an earlier stage has written. \throw InvalidInput naming the stage to run if

@@ -1,0 +1,98 @@
+// Folded faces: turned over against the reference, and not merely near a place where the reference turns.
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "compare_parts.hh"
+
+namespace anisomesh::detail {
+
+namespace {
+
+/// How far from the nearest point, as a share of the face's diameter, the reference may turn to a face's
+/// side for the face still to be right.
+constexpr double reach = 0.5;
+/// Two neighbours lie folded onto each other when their normals differ by more than 170 degrees.
+const double folded_cosine = std::cos(170.0 / 180 * 3.14159265358979323846);
+
+/// Whether the reference around p faces the other way than `normal`, everywhere within reach. A thin ear, a
+/// nostril or a deep valley has both sides nearby, and a face on one of them whose nearest point happens to
+/// be on the other is no fold.
+bool is_against(const ReferenceSurface& reference, const Vec3d& p, const Vec3d& normal, double diameter) {
+  const auto agrees = [&](int triangle) {
+    return dot(reference.normals[static_cast<size_t>(triangle)], normal) > 0;
+  };
+  const ClosestPoint nearest = reference.tree.closest(p);
+  if (agrees(nearest.triangle)) return false;
+  const double limit = std::sqrt(nearest.squared_distance) + reach * diameter;
+  return reference.tree.closest_if(p, limit * limit, agrees).triangle < 0;
+}
+
+/// Whether the face is against the reference at most of its samples: four in each of its triangles.
+bool is_turned_over(const ReferenceSurface& reference, const PolygonSoup& result, size_t face) {
+  static const double weights[4][3] = {{1.0 / 3, 1.0 / 3, 1.0 / 3},
+                                       {2.0 / 3, 1.0 / 6, 1.0 / 6},
+                                       {1.0 / 6, 2.0 / 3, 1.0 / 6},
+                                       {1.0 / 6, 1.0 / 6, 2.0 / 3}};
+  int samples = 0, against = 0;
+  for (int t = result.first_triangle[face]; t < result.first_triangle[face + 1]; ++t) {
+    const Triangle& corner = result.triangles[static_cast<size_t>(t)];
+    for (const auto& w : weights) {
+      const Vec3d p = w[0] * result.points[static_cast<size_t>(corner[0])] +
+                      w[1] * result.points[static_cast<size_t>(corner[1])] +
+                      w[2] * result.points[static_cast<size_t>(corner[2])];
+      ++samples;
+      against += is_against(reference, p, result.normals[face], result.diameters[face]) ? 1 : 0;
+    }
+  }
+  return 2 * against > samples;
+}
+
+struct InnerEdge {
+  int from, to, left, right;  // vertices and faces
+};
+
+std::vector<InnerEdge> inner_edges(const PolygonSoup& result) {
+  std::map<std::pair<int, int>, int> first_face;
+  std::vector<InnerEdge> edges;
+  for (size_t f = 0; f < result.faces.size(); ++f) {
+    const auto& face = result.faces[f];
+    for (size_t i = 0; i < face.size(); ++i) {
+      const int a = face[i], b = face[(i + 1) % face.size()];
+      const auto opposite = first_face.find({b, a});
+      if (opposite != first_face.end())
+        edges.push_back({a, b, static_cast<int>(f), opposite->second});
+      else
+        first_face[{a, b}] = static_cast<int>(f);
+    }
+  }
+  return edges;
+}
+
+bool is_degenerate(const PolygonSoup& result, size_t face) {
+  return !(2 * result.areas[face] > 1e-6 * result.diameters[face] * result.diameters[face]);
+}
+
+}  // namespace
+
+void measure_folds(const ReferenceSurface& reference, const PolygonSoup& result, Comparison& comparison) {
+  std::vector<char> folded(result.faces.size(), 0);
+  tbb::parallel_for(size_t{0}, result.faces.size(), [&](size_t face) {
+    folded[face] = !is_degenerate(result, face) && is_turned_over(reference, result, face) ? 1 : 0;
+  });
+  for (const InnerEdge& edge : inner_edges(result)) {
+    const auto left = static_cast<size_t>(edge.left), right = static_cast<size_t>(edge.right);
+    if (is_degenerate(result, left) || is_degenerate(result, right)) continue;
+    if (dot(result.normals[left], result.normals[right]) > folded_cosine) continue;
+    const Vec3d middle =
+        0.5 * (result.points[static_cast<size_t>(edge.from)] + result.points[static_cast<size_t>(edge.to)]);
+    // The reference may be as sharp here (the rim of an ear): then it shows both sides within reach.
+    for (const size_t face : {left, right})
+      if (is_against(reference, middle, result.normals[face], result.diameters[face])) folded[face] = 1;
+  }
+  comparison.folded_faces = static_cast<size_t>(std::count(folded.begin(), folded.end(), 1));
+}
+
+}  // namespace anisomesh::detail
