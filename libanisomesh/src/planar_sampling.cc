@@ -29,7 +29,9 @@ PlanarSampling regular_rectangle(double width, double height, int columns, int r
   PlanarSampling sampling;
   const auto index = [&](int i, int j) { return j * (columns + 1) + i; };
   for (int j = 0; j <= rows; ++j)
-    for (int i = 0; i <= columns; ++i) sampling.points.emplace_back(width * i / columns, height * j / rows);
+    for (int i = 0; i <= columns; ++i)  // the quotient first: the last column lies at `width` to the last bit
+      sampling.points.emplace_back(width * (static_cast<double>(i) / columns),
+                                   height * (static_cast<double>(j) / rows));
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i) {
       const int a = index(i, j), b = index(i + 1, j), c = index(i + 1, j + 1), d = index(i, j + 1);
