@@ -1,0 +1,109 @@
+#include "anisomesh/features.hh"
+
+#include "anisomesh/shapes.hh"
+#include "catch.hh"
+
+using namespace anisomesh;
+
+namespace {
+
+/// A sheet of 2 x n squares folded along its middle line by an angle.
+OpenMesh::TriMesh folded_sheet(int n, double fold_degrees) {
+  const double fold = fold_degrees * 3.14159265358979323846 / 180;
+  OpenMesh::TriMesh mesh;
+  for (int j = 0; j <= n; ++j) {
+    mesh.add_vertex({-1, static_cast<double>(j), 0});
+    mesh.add_vertex({0, static_cast<double>(j), 0});
+    mesh.add_vertex({std::cos(fold), static_cast<double>(j), -std::sin(fold)});
+  }
+  const auto v = [](int i, int j) { return OpenMesh::VertexHandle(3 * j + i); };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < 2; ++i) {
+      mesh.add_face(v(i, j), v(i + 1, j), v(i + 1, j + 1));
+      mesh.add_face(v(i, j), v(i + 1, j + 1), v(i, j + 1));
+    }
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("an edge is a feature where the normals turn by more than the angle", "[features]") {
+  for (const double sign : {1.0, -1.0}) {
+    auto mesh = folded_sheet(4, sign * 40);
+    FeatureOptions options;
+    options.angle_degrees = 39.9;
+    const auto report = tag_features(mesh, options);
+    CHECK(report.feature_edges == 4);
+    CHECK(report.by_angle == 4);
+    for (const auto e : mesh.edges())
+      CHECK(mesh.status(e).feature() == (e.v0().idx() % 3 == 1 && e.v1().idx() % 3 == 1));
+    options.angle_degrees = 40.1;
+    options.keep_existing = false;
+    CHECK(tag_features(mesh, options).feature_edges == 0);
+  }
+}
+
+TEST_CASE("tags of other tools are kept unless asked otherwise", "[features]") {
+  auto mesh = folded_sheet(4, 0);
+  FeatureOptions options;
+  options.edges = {{1, 4}, {7, 4}};
+  CHECK(tag_features(mesh, options).by_list == 2);
+  options.edges = {{10, 7}};
+  CHECK(tag_features(mesh, options).feature_edges == 3);
+  options.keep_existing = false;
+  CHECK(tag_features(mesh, options).feature_edges == 1);
+}
+
+TEST_CASE("a listed pair that is no edge is refused and nothing is tagged", "[features]") {
+  auto mesh = folded_sheet(2, 90);
+  FeatureOptions options;
+  options.angle_degrees = 30;
+  options.edges = {{1, 4}, {0, 8}};
+  CHECK_THROWS_WITH(tag_features(mesh, options), Catch::Contains("(0, 8)"));
+  options.edges = {{0, 9}};
+  CHECK_THROWS_AS(tag_features(mesh, options), InvalidInput);
+  CHECK_FALSE(mesh.has_edge_status());
+  options.angle_degrees = 180;
+  CHECK_THROWS_AS(tag_features(mesh, options), InvalidOption);
+}
+
+TEST_CASE("the skeleton of a folded sheet is its crease and its four sides", "[features]") {
+  auto mesh = folded_sheet(4, 60);
+  FeatureOptions options;
+  options.angle_degrees = 30;
+  tag_features(mesh, options);
+  const auto skeleton = feature_skeleton(mesh);
+  // Four corners of the sheet and the two ends of the crease.
+  CHECK(skeleton.corners.size() == 6);
+  CHECK(skeleton.curves.size() == 7);
+  size_t edges = 0, creases = 0;
+  for (const auto& curve : skeleton.curves) {
+    CHECK_FALSE(curve.closed);
+    edges += curve.halfedges.size();
+    creases += !curve.border;
+    for (size_t i = 1; i < curve.halfedges.size(); ++i)
+      CHECK(mesh.to_vertex_handle(curve.halfedges[i - 1]) == mesh.from_vertex_handle(curve.halfedges[i]));
+  }
+  CHECK(creases == 1);
+  CHECK(edges == 4 + 2 * 4 + 4);
+}
+
+TEST_CASE("a border without a corner is one closed curve", "[features]") {
+  ShapeOptions options;
+  options.vertices = 500;
+  auto mesh = make_shape("hemisphere", options);
+  const auto skeleton = feature_skeleton(mesh);
+  CHECK(skeleton.corners.empty());
+  REQUIRE(skeleton.curves.size() == 1);
+  CHECK(skeleton.curves[0].closed);
+  CHECK(skeleton.curves[0].border);
+  CHECK(mesh.from_vertex_handle(skeleton.curves[0].halfedges.front()) ==
+        mesh.to_vertex_handle(skeleton.curves[0].halfedges.back()));
+}
+
+TEST_CASE("border edges count as features also without edge status", "[features]") {
+  auto mesh = folded_sheet(1, 0);
+  size_t count = 0;
+  for (const auto e : mesh.edges()) count += is_feature_or_border(mesh, e);
+  CHECK(count == 6);
+}
