@@ -1,1 +1,99 @@
+#include <tbb/parallel_invoke.h>
+
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <thread>
+
 #include "anisomesh/lines.hh"
+#include "anisomesh/properties.hh"
+#include "line_placement.hh"
+#include "plane_domain.hh"
+
+namespace anisomesh {
+
+namespace {
+
+Line as_line(const detail::TracedLine& traced, LineKind kind) {
+  Line line;
+  line.kind = kind;
+  line.closed = traced.closed;
+  line.begin_reason = traced.begin_reason;
+  line.end_reason = traced.end_reason;
+  for (const detail::TracePoint& p : traced.points) line.points.push_back(p.point);
+  return line;
+}
+
+// Both kinds at once; they know nothing of each other, so that the result is that of one after the other.
+class BothKinds {
+ public:
+  BothKinds(const detail::Domain& domain, const TraceOptions& options, const Progress& progress)
+      : domain_(domain), options_(options), progress_(progress), caller_(std::this_thread::get_id()) {}
+
+  void run() {
+    tbb::parallel_invoke([this] { place(LineKind::min); }, [this] { place(LineKind::max); });
+    if (cancelled_) throw Cancelled();
+  }
+
+  detail::PlacedLines placed[2];
+
+ private:
+  void place(LineKind kind) {
+    const int k = static_cast<int>(kind);
+    placed[k] = detail::place_lines(domain_, kind, options_, [this, k](double fraction) {
+      done_[k] = fraction;
+      if (progress_ && std::this_thread::get_id() == caller_ && !progress_(0.5 * (done_[0] + done_[1])))
+        cancelled_ = true;
+      return !cancelled_;
+    });
+    done_[k] = 1;
+  }
+
+  const detail::Domain& domain_;
+  const TraceOptions& options_;
+  const Progress& progress_;
+  std::thread::id caller_;
+  std::atomic<double> done_[2] = {0, 0};
+  std::atomic<bool> cancelled_{false};
+};
+
+}  // namespace
+
+void TraceOptions::validate() const {
+  density.validate();
+  if (!(stop_fraction > 0 && stop_fraction < 1))
+    throw InvalidOption("stop_fraction must be above 0 and below 1, but is " + std::to_string(stop_fraction));
+}
+
+TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& options, const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  options.validate();
+  const detail::PlaneDomain domain(surface, detail::read_plane_input(surface), options.density);
+  report_progress(progress, 0);
+  BothKinds both(domain, options, progress);
+  both.run();
+
+  TraceReport report;
+  LineNetwork network;
+  for (const LineKind kind : {LineKind::min, LineKind::max}) {
+    const auto& placed = both.placed[static_cast<int>(kind)];
+    for (const auto& traced : placed.lines) {
+      network.lines.push_back(as_line(traced, kind));
+      report.points += traced.points.size();
+      report.closed_lines += traced.closed ? 1 : 0;
+      ++report.ends[static_cast<int>(traced.begin_reason)];
+      ++report.ends[static_cast<int>(traced.end_reason)];
+    }
+    (kind == LineKind::min ? report.min_lines : report.max_lines) = placed.lines.size();
+    report.coverage_seeds += placed.coverage_seeds;
+  }
+  report_progress(progress, 1);
+
+  auto& mesh = surface.connectivity();
+  mesh.property(provide_property(mesh, property::epsilon)) = domain.epsilon();
+  write_lines(surface, network);
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+}  // namespace anisomesh

@@ -22,6 +22,7 @@ struct DensityOptions {
 double chord_spacing(double curvature, double epsilon);
 
 /// Spacing on one surface: the options with lengths resolved against its diagonal and mean curvature.
+/// A spacing lies between 2 epsilon (what bends tighter than epsilon needs no more) and the upper bound.
 class Density {
  public:
   /// \param diagonal of the bounding box, model units
@@ -35,6 +36,9 @@ class Density {
   double max_line_spacing(double k_min, double k_max) const;
   /// Distance between isotropic samples: d of the larger |curvature|. Model units, bounded.
   double isotropic_spacing(double k_min, double k_max) const;
+
+  /// The curvature below which every spacing is at its upper bound: what bends less is flat for this density.
+  double flat_curvature() const;
 
   double epsilon() const { return epsilon_; }
 

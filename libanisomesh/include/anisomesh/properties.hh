@@ -67,6 +67,8 @@ inline constexpr OnFaces<Vec3d> umbilic_position{"anisomesh:umbilic_position", "
 
 // --- written by trace_lines(), see lines.hh for the struct they hold
 // -------------------------------------------------
+/// The epsilon the lines were traced for, in model units.
+inline constexpr OnMesh<double> epsilon{"anisomesh:epsilon", "trace_lines"};
 /// Per line: kind (0 min, 1 max), closed (0, 1), reason of its two ends (LineEnd), index of its first point:
 /// 5 ints a line.
 inline constexpr OnMesh<std::vector<int>> line_table{"anisomesh:line_table", "trace_lines"};

@@ -1,0 +1,248 @@
+#include "line_placement.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <queue>
+
+namespace anisomesh::detail {
+
+namespace {
+
+constexpr double kNearestSeed = 0.7;  // spacings: a gap narrower than twice this gets no line in its middle
+constexpr double kSeedEvery = 0.5;    // spacings along a line between the seeds beside it
+constexpr double kParallel = 0.94;    // cosine: a fence this parallel to a line counts as a line
+
+LineKind other(LineKind kind) { return kind == LineKind::min ? LineKind::max : LineKind::min; }
+
+// A place beside a line, to be looked at again when its turn comes.
+struct Candidate {
+  double misfit = 0;  // |actual - wanted distance| / wanted
+  size_t order = 0;
+  SurfacePoint origin;
+  Vec2d across{0, 0};                         // unit, away from the line
+  bool operator<(const Candidate& o) const {  // worse ones sink in the queue
+    return misfit != o.misfit ? misfit > o.misfit : order > o.order;
+  }
+};
+
+struct Seed {
+  SurfacePoint point;
+  double misfit = 0;
+  bool fits = false;
+};
+
+class Placement {
+ public:
+  Placement(const Domain& domain, LineKind kind, const TraceOptions& options,
+            const std::function<bool(double)>& going_on)
+      : domain_(domain),
+        kind_(kind),
+        options_(options),
+        going_on_(going_on),
+        index_(domain.make_index()),
+        tracer_(domain, *index_, kind, options.stop_fraction),
+        sampler_(domain, options.seed) {}
+
+  PlacedLines run();
+
+ private:
+  bool trace_umbilics();
+  bool trace_extreme();
+  bool trace_queue();
+  bool check_coverage();
+  bool keep(TracedLine line);
+  double clearance(const SurfacePoint& at, double bound) const;
+  Seed seed_at(const Candidate& candidate) const;
+  Vec2d line_direction(const SurfacePoint& at) const;
+
+  const Domain& domain_;
+  LineKind kind_;
+  const TraceOptions& options_;
+  const std::function<bool(double)>& going_on_;
+  std::unique_ptr<LineIndex> index_;
+  LineTracer tracer_;
+  AreaSampler sampler_;
+  std::priority_queue<Candidate> queue_;
+  size_t candidates_ = 0;
+  int next_id_ = 0;
+  double covered_ = 0;
+  PlacedLines result_;
+};
+
+Vec2d Placement::line_direction(const SurfacePoint& at) const {
+  const Vec3d tensor = domain_.tensor(at);
+  return kind_ == LineKind::max ? max_direction(tensor) : min_direction(tensor);
+}
+
+// Distance to the nearest line, or fence that runs like one. Infinite beyond the bound.
+double Placement::clearance(const SurfacePoint& at, double bound) const {
+  const auto near = index_->nearest(at, bound);
+  const bool parallel = std::abs(near.fence.direction | line_direction(at)) > kParallel;
+  return std::min(near.line.distance, parallel ? near.fence.distance : near.line.distance);
+}
+
+// The seed at the wanted distance from a line, or in the middle of the gap beside it where the next line is
+// nearer than twice that.
+Seed Placement::seed_at(const Candidate& candidate) const {
+  Seed seed;
+  const double wanted = domain_.spacing(kind_, candidate.origin);
+  const Reach reach = domain_.walk(candidate.origin, wanted * candidate.across);
+  if (reach.blocked || domain_.isotropic(reach.point)) return seed;
+  const double spacing = domain_.spacing(kind_, reach.point);
+  double distance = clearance(reach.point, 1.2 * std::max(spacing, wanted));
+  seed.point = reach.point;
+  if (distance < 0.98 * wanted) {
+    const double gap = wanted + distance;
+    if (gap < 2 * kNearestSeed * spacing) return seed;
+    const Reach middle = domain_.walk(candidate.origin, 0.5 * gap * candidate.across);
+    if (middle.blocked || domain_.isotropic(middle.point)) return seed;
+    seed.point = middle.point;
+    distance = clearance(middle.point, 1.2 * spacing);
+  }
+  distance = std::min(distance, wanted);
+  const double here = domain_.spacing(kind_, seed.point);
+  seed.misfit = std::abs(distance - here) / here;
+  seed.fits = distance >= 0.97 * kNearestSeed * here;
+  return seed;
+}
+
+bool Placement::keep(TracedLine line) {
+  ++next_id_;
+  if (line.points.empty()) return true;
+  double next_seed = line.points.front().arc;
+  for (const TracePoint& p : line.points) {
+    if (p.arc < next_seed) continue;
+    next_seed = p.arc + kSeedEvery;
+    const Vec2d across(-p.direction[1], p.direction[0]);
+    for (const Vec2d& side : {across, -across}) {
+      Candidate candidate{0, candidates_++, p.point, side};
+      const Seed seed = seed_at(candidate);
+      if (!seed.fits) continue;
+      candidate.misfit = seed.misfit;
+      queue_.push(candidate);
+    }
+  }
+  for (size_t i = 1; i < line.points.size(); ++i) {
+    const double s = domain_.spacing(kind_, line.points[i].point);
+    covered_ += std::abs(line.points[i].arc - line.points[i - 1].arc) * s * s;
+  }
+  result_.lines.push_back(std::move(line));
+  return going_on_(std::min(1.0, covered_ / sampler_.total_area()));
+}
+
+// Lines from umbilics, the most curved first.
+bool Placement::trace_umbilics() {
+  const auto& umbilics = domain_.umbilics();
+  std::vector<int> order(umbilics.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return umbilics[static_cast<size_t>(a)].curvature > umbilics[static_cast<size_t>(b)].curvature;
+  });
+  for (const int u : order) {
+    const UmbilicPoint& umbilic = umbilics[static_cast<size_t>(u)];
+    const double spacing = domain_.spacing(kind_, umbilic.point);
+    if (clearance(umbilic.point, spacing) < kNearestSeed * spacing) continue;
+    for (const Vec2d& direction : domain_.separatrices(umbilic, kind_))
+      if (!keep(tracer_.trace_from_umbilic(u, direction, next_id_))) return false;
+  }
+  return true;
+}
+
+// The line through the face that wants the densest lines.
+bool Placement::trace_extreme() {
+  SurfacePoint best;
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t f = 0; f < domain_.n_faces(); ++f) {
+    const SurfacePoint centre{OpenMesh::FaceHandle(static_cast<int>(f)), {1.0 / 3, 1.0 / 3, 1.0 / 3}};
+    const double spacing = domain_.spacing(kind_, centre);
+    if (spacing >= least || domain_.isotropic(centre)) continue;
+    const auto near = index_->nearest(centre, 0.5 * spacing);
+    if (!std::isinf(near.fence.distance)) continue;  // no good start: half of it is cut off
+    least = spacing;
+    best = centre;
+  }
+  return std::isinf(least) || keep(tracer_.trace(best, next_id_));
+}
+
+bool Placement::trace_queue() {
+  while (!queue_.empty()) {
+    Candidate candidate = queue_.top();
+    queue_.pop();
+    const Seed seed = seed_at(candidate);
+    if (!seed.fits) continue;
+    if (seed.misfit > candidate.misfit + 0.02) {
+      candidate.misfit = seed.misfit;
+      queue_.push(candidate);
+      continue;
+    }
+    if (!keep(tracer_.trace(seed.point, next_id_))) return false;
+  }
+  return true;
+}
+
+bool Placement::check_coverage() {
+  double cells = 0;
+  for (size_t f = 0; f < domain_.n_faces(); ++f) {
+    const OpenMesh::FaceHandle face(static_cast<int>(f));
+    const SurfacePoint centre{face, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
+    cells += domain_.area(face) / (domain_.spacing(kind_, centre) * domain_.spacing(other(kind_), centre));
+  }
+  const size_t samples = 50 + static_cast<size_t>(2 * cells);
+  for (size_t i = 0; i < samples; ++i) {
+    const SurfacePoint at = sampler_.next();
+    if (domain_.isotropic(at)) continue;
+    const double spacing = domain_.spacing(kind_, at);
+    if (clearance(at, spacing) < 0.8 * spacing) continue;
+    const size_t before = result_.lines.size();
+    if (!keep(tracer_.trace(at, next_id_))) return false;
+    result_.coverage_seeds += result_.lines.size() - before;
+    if (!trace_queue()) return false;
+  }
+  return true;
+}
+
+PlacedLines Placement::run() {
+  bool going_on = trace_umbilics();
+  if (going_on && result_.lines.empty()) going_on = trace_extreme();
+  if (going_on) going_on = trace_queue();
+  if (going_on) check_coverage();
+  return std::move(result_);
+}
+
+}  // namespace
+
+PlacedLines place_lines(const Domain& domain, LineKind kind, const TraceOptions& options,
+                        const std::function<bool(double)>& going_on) {
+  return Placement(domain, kind, options, going_on).run();
+}
+
+AreaSampler::AreaSampler(const Domain& domain, unsigned seed) : state_(seed) {
+  double sum = 0;
+  cumulative_.reserve(domain.n_faces());
+  for (size_t f = 0; f < domain.n_faces(); ++f)
+    cumulative_.push_back(sum += domain.area(OpenMesh::FaceHandle(static_cast<int>(f))));
+}
+
+// SplitMix64: the same numbers with every standard library. [Steele, Lea, Flood 2014]
+double AreaSampler::uniform() {
+  unsigned long long z = (state_ += 0x9e3779b97f4a7c15ULL);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  z ^= z >> 31;
+  return static_cast<double>(z >> 11) * 0x1p-53;
+}
+
+SurfacePoint AreaSampler::next() {
+  const auto it = std::upper_bound(cumulative_.begin(), cumulative_.end(), uniform() * cumulative_.back());
+  const auto face =
+      std::min<std::ptrdiff_t>(it - cumulative_.begin(), static_cast<std::ptrdiff_t>(cumulative_.size()) - 1);
+  return in_face(OpenMesh::FaceHandle(static_cast<int>(face)));
+}
+
+SurfacePoint AreaSampler::in_face(OpenMesh::FaceHandle face) {
+  const double r = std::sqrt(uniform()), s = uniform();
+  return {face, {1 - r, r * (1 - s), r * s}};
+}
+
+}  // namespace anisomesh::detail
