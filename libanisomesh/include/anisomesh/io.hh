@@ -15,28 +15,39 @@ struct ReadReport {
   size_t merged_vertices = 0;        ///< STL corners at the same place made one vertex
   size_t triangulated_polygons = 0;  ///< faces of more than three corners
   size_t degenerate_faces = 0;       ///< faces with a corner twice, dropped
-  size_t duplicated_vertices =
-      0;  ///< made because a vertex or edge is not manifold or two faces disagree on orientation
-  size_t isolated_vertices = 0;  ///< dropped
+  size_t duplicate_faces = 0;        ///< faces with the same corners as an earlier one, dropped
+  size_t reoriented_faces = 0;       ///< turned over to agree with most of their component
+  size_t duplicated_vertices = 0;    ///< made because a vertex or edge is not manifold, or one-sided
+  size_t isolated_vertices = 0;      ///< of no face, dropped
+  /// Vertex of the mesh for each vertex of the file, -1 where it was dropped; empty where they are the same.
+  std::vector<int> vertex_of;
 };
 
 /// Reads OBJ, OFF, PLY, STL or OM (with all its properties) as a triangle mesh with vertex, edge and face
-/// status. \throw InvalidInput naming the file, the element and the way out
+/// status. Vertices and faces keep the order of the file. \throw InvalidInput naming the file, the element
+/// and the way out
 OpenMesh::TriMesh read_surface(const std::string& path, ReadReport* report = nullptr);
 
-/// Reads a polygonal mesh (OBJ, OFF, PLY, OM) as it is. \throw InvalidInput
-OpenMesh::PolyMesh read_polygons(const std::string& path);
+/// Reads a polygonal mesh (OBJ, OFF, PLY, STL, OM) as it is: nothing is triangulated or turned over, isolated
+/// vertices stay; only what an OpenMesh cannot hold is dropped or split, and reported. \throw InvalidInput
+OpenMesh::PolyMesh read_polygons(const std::string& path, ReadReport* report = nullptr);
 
-/// Writes a mesh as OBJ, OFF, PLY (binary, doubles) or OM (with all persistent properties), by the ending of
-/// `path`: first to a temporary file beside it, then renamed, so that an existing file is replaced whole or
-/// not at all. \throw InvalidInput if the ending is unknown or the place cannot be written
+/// Writes a mesh as OBJ, OFF (shortest decimals that read back as the same doubles), PLY (binary, doubles) or
+/// OM (with all persistent properties), by the ending of `path`: first to a temporary file beside it, then
+/// renamed, so that an existing file is replaced whole or not at all.
+/// \throw InvalidInput if the ending is unknown or the place cannot be written
 void write_mesh(const OpenMesh::TriMesh& mesh, const std::string& path);
 void write_mesh(const OpenMesh::PolyMesh& mesh, const std::string& path);
-/// Writes text the same safe way.
+/// Writes text the same safe way. \throw InvalidInput
 void write_text(const std::string& text, const std::string& path);
 
+/// Looks before the long work whether write_mesh() would find its ending and its place. \throw InvalidInput
+void require_writable_mesh(const std::string& path);
+/// The same for write_text(). \throw InvalidInput
+void require_writable(const std::string& path);
+
 /// Feature edges as vertex index pairs (0-based): from an OBJ's `l` elements (1-based there), or from text
-/// lines "i j". \throw InvalidInput
+/// lines "i j" (0-based, '#' starts a comment). \throw InvalidInput
 std::vector<std::pair<int, int>> read_feature_edges(const std::string& path);
 
 }  // namespace anisomesh

@@ -1,1 +1,0 @@
-#include "anisomesh/io.hh"

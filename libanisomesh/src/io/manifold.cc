@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <numeric>
+
+#include "io/soup.hh"
+
+namespace anisomesh::detail {
+
+namespace {
+
+/// The sides of all faces, those of one edge beside each other. Side i runs from corner i to the next one.
+struct Sides {
+  explicit Sides(const Soup& soup) : next(soup.corners.size()), face(soup.corners.size()) {
+    for (size_t f = 0; f < soup.n_faces(); ++f)
+      for (size_t i = soup.begins[f]; i < soup.begins[f + 1]; ++i) {
+        next[i] = i + 1 == soup.begins[f + 1] ? soup.begins[f] : i + 1;
+        face[i] = f;
+      }
+    std::vector<size_t> begin(soup.points.size() + 1, 0);
+    const auto low = [&](size_t i) { return static_cast<size_t>(std::min(from(soup, i), to(soup, i))); };
+    for (size_t i = 0; i < next.size(); ++i) ++begin[low(i) + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    sorted.resize(next.size());
+    std::vector<size_t> fill(begin.begin(), begin.end() - 1);
+    for (size_t i = 0; i < next.size(); ++i) sorted[fill[low(i)]++] = i;
+    for (size_t v = 0; v + 1 < begin.size(); ++v)
+      std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin[v]),
+                sorted.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]), [&](size_t a, size_t b) {
+                  const int high_a = std::max(from(soup, a), to(soup, a));
+                  const int high_b = std::max(from(soup, b), to(soup, b));
+                  return high_a != high_b ? high_a < high_b : a < b;
+                });
+  }
+
+  int from(const Soup& soup, size_t side) const { return soup.corners[side]; }
+  int to(const Soup& soup, size_t side) const { return soup.corners[next[side]]; }
+
+  /// Calls `visit(a, b)` for the two sides of every edge that has exactly two.
+  template <class Visit>
+  void for_each_pair(const Soup& soup, Visit visit) const {
+    const auto same_edge = [&](size_t a, size_t b) {
+      return (from(soup, a) == from(soup, b) && to(soup, a) == to(soup, b)) ||
+             (from(soup, a) == to(soup, b) && to(soup, a) == from(soup, b));
+    };
+    for (size_t i = 0; i < sorted.size();) {
+      size_t j = i + 1;
+      while (j < sorted.size() && same_edge(sorted[i], sorted[j])) ++j;
+      if (j - i == 2) visit(sorted[i], sorted[i + 1]);
+      i = j;
+    }
+  }
+
+  std::vector<size_t> next;
+  std::vector<size_t> face;
+  std::vector<size_t> sorted;
+};
+
+/// Union-find with the lowest member as the representative.
+class Groups {
+ public:
+  explicit Groups(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), size_t{0}); }
+  size_t find(size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(size_t a, size_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<size_t> parent_;
+};
+
+}  // namespace
+
+void orient(Soup& soup, ReadReport& report) {
+  const Sides sides(soup);
+  std::vector<size_t> other(soup.corners.size(), size_t(-1));
+  bool consistent = true;
+  sides.for_each_pair(soup, [&](size_t a, size_t b) {
+    other[a] = b;
+    other[b] = a;
+    consistent = consistent && soup.corners[a] != soup.corners[b];
+  });
+  if (consistent) return;
+
+  // A walk over each component gives every face a side; the larger side stays as it is. On a one-sided
+  // surface the walk meets itself wrongly somewhere; split_non_manifold() cuts it open there.
+  constexpr char unknown = 0, as_is = 1, turned = 2;
+  std::vector<char> state(soup.n_faces(), unknown);
+  std::vector<size_t> component;
+  for (size_t seed = 0; seed < soup.n_faces(); ++seed) {
+    if (state[seed] != unknown) continue;
+    component.assign(1, seed);
+    state[seed] = as_is;
+    size_t n_turned = 0;
+    for (size_t k = 0; k < component.size(); ++k) {
+      const size_t f = component[k];
+      for (size_t i = soup.begins[f]; i < soup.begins[f + 1]; ++i) {
+        if (other[i] == size_t(-1)) continue;
+        const size_t g = sides.face[other[i]];
+        if (state[g] != unknown) continue;
+        const bool agree = soup.corners[i] != soup.corners[other[i]];
+        state[g] = agree ? state[f] : (state[f] == as_is ? turned : as_is);
+        n_turned += state[g] == turned;
+        component.push_back(g);
+      }
+    }
+    const char turn = 2 * n_turned > component.size() ? as_is : turned;
+    for (const size_t f : component)
+      if (state[f] == turn) {
+        std::reverse(soup.face(f), soup.face(f) + soup.degree(f));
+        ++report.reoriented_faces;
+      }
+  }
+}
+
+void split_non_manifold(Soup& soup, ReadReport& report) {
+  const Sides sides(soup);
+  // Corners at one vertex whose faces share a proper edge there belong to one fan.
+  Groups fans(soup.corners.size());
+  sides.for_each_pair(soup, [&](size_t a, size_t b) {
+    if (soup.corners[a] == soup.corners[b]) return;  // they disagree on orientation
+    fans.join(a, sides.next[b]);
+    fans.join(sides.next[a], b);
+  });
+  // The first fan keeps the vertex; each further one gets a copy, in the order of corners.
+  std::vector<size_t> fan_of(soup.points.size(), size_t(-1));
+  std::vector<int> copy_of(soup.corners.size(), -1);
+  for (size_t i = 0; i < soup.corners.size(); ++i) {
+    const size_t v = static_cast<size_t>(soup.corners[i]), fan = fans.find(i);
+    if (fan_of[v] == size_t(-1)) fan_of[v] = fan;
+    if (fan_of[v] == fan) continue;
+    if (copy_of[fan] < 0) {
+      copy_of[fan] = static_cast<int>(soup.points.size());
+      const Vec3d place = soup.points[v];
+      soup.points.push_back(place);
+      ++report.duplicated_vertices;
+    }
+    soup.corners[i] = copy_of[fan];
+  }
+}
+
+}  // namespace anisomesh::detail

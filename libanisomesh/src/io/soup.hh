@@ -1,0 +1,48 @@
+// What a file says before it is a mesh: points and polygons, and how a soup is cleaned into a manifold.
+#pragma once
+
+#include <OpenMesh/Core/Geometry/VectorT.hh>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "anisomesh/io.hh"
+
+namespace anisomesh::detail {
+
+using OpenMesh::Vec3d;
+
+struct Soup {
+  std::vector<Vec3d> points;
+  std::vector<int> corners;                   ///< of all faces, one after the other
+  std::vector<size_t> begins = {0};           ///< where each face's corners begin; one more than faces
+  std::vector<std::pair<int, int>> segments;  ///< of an OBJ's `l` elements
+
+  size_t n_faces() const { return begins.size() - 1; }
+  size_t degree(size_t face) const { return begins[face + 1] - begins[face]; }
+  const int* face(size_t f) const { return corners.data() + begins[f]; }
+  int* face(size_t f) { return corners.data() + begins[f]; }
+  void end_face() { begins.push_back(corners.size()); }
+};
+
+/// One for each format; `text` is the whole file, `path` goes into messages. \throw InvalidInput
+Soup read_obj(const std::string& text, const std::string& path);
+Soup read_off(const std::string& text, const std::string& path);
+Soup read_ply(const std::string& text, const std::string& path);
+Soup read_stl(const std::string& text, const std::string& path, ReadReport& report);
+
+/// Drops faces with a corner twice. STL makes these when it merges.
+void drop_degenerate_faces(Soup& soup, ReadReport& report);
+/// Drops faces with the same set of corners as an earlier face.
+void drop_duplicate_faces(Soup& soup, ReadReport& report);
+/// Splits every polygon into triangles, in the plane of best fit, by ears.
+void triangulate(Soup& soup, ReadReport& report);
+/// Turns faces over so that neighbours agree; in each component the majority is right.
+void orient(Soup& soup, ReadReport& report);
+/// Gives every fan of faces around a vertex a vertex of its own; edges of more than two faces, or of two
+/// faces that disagree, become borders.
+void split_non_manifold(Soup& soup, ReadReport& report);
+/// Drops vertices of no face and fills ReadReport::vertex_of.
+void drop_isolated_vertices(Soup& soup, ReadReport& report);
+
+}  // namespace anisomesh::detail
