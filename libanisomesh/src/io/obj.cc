@@ -14,7 +14,7 @@ int vertex_index(Scanner& scanner, size_t n_points, const char* element) {
   const long long found = index > 0 ? index - 1 : static_cast<long long>(n_points) + index;
   if (found < 0 || found > 0x7ffffffe)
     scanner.fail(std::string(element) + " names vertex " + std::to_string(index) + ", which is not there");
-  scanner.word();  // /texture/normal
+  scanner.skip_to_blank();  // /texture/normal
   return static_cast<int>(found);
 }
 

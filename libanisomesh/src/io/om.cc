@@ -1,9 +1,12 @@
 #include "io/om.hh"
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <sstream>
+#include <streambuf>
+#include <vector>
 
 #include "anisomesh/errors.hh"
 
@@ -34,6 +37,76 @@ OmHeader read_header(const std::string& text, const std::string& path) {
   return header;
 }
 
+/// Notices when more is asked for than there is: OpenMesh does not, and leaves properties half filled. At the
+/// end of a whole file it looks once for the two bytes of a further chunk.
+class WatchedBuffer : public std::streambuf {
+ public:
+  explicit WatchedBuffer(const std::string& text) {
+    char* begin = const_cast<char*>(text.data());  // the interface of streambuf; nothing is written
+    setg(begin, begin, begin + text.size());
+  }
+  bool fell_short() const { return fell_short_; }
+
+ protected:
+  std::streamsize xsgetn(char* to, std::streamsize wanted) override {
+    const std::streamsize found = std::min<std::streamsize>(wanted, egptr() - gptr());
+    if (found < wanted && (found > 0 || wanted != 2)) fell_short_ = true;
+    std::memcpy(to, gptr(), static_cast<size_t>(found));
+    setg(eback(), gptr() + found, egptr());
+    return found;
+  }
+
+ private:
+  bool fell_short_ = false;
+};
+
+/// OpenMesh takes the indices of a file as they come; following a wrong one would leave the arrays.
+template <class Mesh>
+bool indices_are_sound(const Mesh& mesh) {
+  const auto in = [](int index, size_t size) { return index >= 0 && static_cast<size_t>(index) < size; };
+  for (const auto h : mesh.halfedges())
+    if (!in(mesh.to_vertex_handle(h).idx(), mesh.n_vertices()) ||
+        !in(mesh.next_halfedge_handle(h).idx(), mesh.n_halfedges()) ||
+        !(mesh.is_boundary(h) || in(mesh.face_handle(h).idx(), mesh.n_faces())))
+      return false;
+  for (const auto v : mesh.vertices()) {
+    const auto h = mesh.halfedge_handle(v);
+    if (h.is_valid() && (!in(h.idx(), mesh.n_halfedges()) || mesh.from_vertex_handle(h) != v)) return false;
+  }
+  for (const auto f : mesh.faces())
+    if (!in(mesh.halfedge_handle(f).idx(), mesh.n_halfedges())) return false;
+  // The walks around faces and vertices must close: next is a permutation that agrees with faces and
+  // vertices.
+  std::vector<char> entered(mesh.n_halfedges(), 0);
+  for (const auto h : mesh.halfedges()) {
+    const auto next = mesh.next_halfedge_handle(h);
+    if (entered[static_cast<size_t>(next.idx())]++ || mesh.face_handle(next) != mesh.face_handle(h) ||
+        mesh.from_vertex_handle(next) != mesh.to_vertex_handle(h))
+      return false;
+  }
+  for (const auto f : mesh.faces())
+    if (mesh.face_handle(mesh.halfedge_handle(f)) != f) return false;
+  return true;
+}
+
+/// What came out of a file shall go into the next one: the reader leaves its properties transient.
+template <class Mesh>
+void keep_properties(Mesh& mesh) {
+  const auto keep = [](auto begin, auto end) {
+    for (auto property = begin; property != end; ++property) {
+      if (!*property) continue;
+      const std::string& name = (*property)->name();
+      const bool of_openmesh = name.size() < 2 || name[1] == ':' || name[0] == '<';
+      if (!of_openmesh) (*property)->set_persistent(true);
+    }
+  };
+  keep(mesh.vprops_begin(), mesh.vprops_end());
+  keep(mesh.hprops_begin(), mesh.hprops_end());
+  keep(mesh.eprops_begin(), mesh.eprops_end());
+  keep(mesh.fprops_begin(), mesh.fprops_end());
+  keep(mesh.mprops_begin(), mesh.mprops_end());
+}
+
 template <class Mesh>
 Mesh read_om(const std::string& text, const std::string& path) {
   const OmHeader header = read_header(text, path);
@@ -44,7 +117,8 @@ Mesh read_om(const std::string& text, const std::string& path) {
   mesh.request_face_status();
   mesh.request_vertex_texcoords2D();
   io::Options options = io::Options::Status | io::Options::VertexTexCoord;
-  std::istringstream stream(text);
+  WatchedBuffer buffer(text);
+  std::istream stream(&buffer);
   bool read = false;
   try {
     const Quiet quiet;
@@ -52,13 +126,17 @@ Mesh read_om(const std::string& text, const std::string& path) {
   } catch (const std::exception& error) {
     throw InvalidInput(path + ": OpenMesh cannot read it: " + error.what());
   }
-  if (!read) throw InvalidInput(path + ": OpenMesh cannot read it; is the file complete?");
+  if (!read || buffer.fell_short())
+    throw InvalidInput(path + ": OpenMesh cannot read it to the end; is the file complete?");
   if (mesh.n_vertices() != header.vertices || mesh.n_faces() != header.faces)
     throw InvalidInput(path + ": the header promises " + std::to_string(header.vertices) + " vertices and " +
                        std::to_string(header.faces) + " faces, but there are " +
                        std::to_string(mesh.n_vertices()) + " and " + std::to_string(mesh.n_faces()) +
                        "; the surface is not manifold or the file is damaged");
+  if (!indices_are_sound(mesh))
+    throw InvalidInput(path + ": the connectivity is damaged; write the file anew");
   if (!options.vertex_has_texcoord()) mesh.release_vertex_texcoords2D();
+  keep_properties(mesh);
   return mesh;
 }
 

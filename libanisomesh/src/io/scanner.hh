@@ -80,6 +80,11 @@ class Scanner {
     return value;
   }
 
+  /// Skips what hangs on the number that was just read, as the /2/3 of an OBJ's 1/2/3.
+  void skip_to_blank() {
+    while (at_ != line_end_ && !is_blank(*at_)) ++at_;
+  }
+
   size_t line() const { return line_; }
   /// What follows the current line.
   std::string_view remainder() const { return {next_, static_cast<size_t>(end_ - next_)}; }
