@@ -113,7 +113,6 @@ Mesh read_om(const std::string& text, const std::string& path) {
   Mesh mesh;
   mesh.request_vertex_status();
   mesh.request_edge_status();
-  mesh.request_halfedge_status();
   mesh.request_face_status();
   mesh.request_vertex_texcoords2D();
   io::Options options = io::Options::Status | io::Options::VertexTexCoord;

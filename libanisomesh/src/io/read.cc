@@ -56,7 +56,6 @@ Mesh mesh_of(const Soup& soup, ReadReport& report) {
   Mesh mesh;
   mesh.request_vertex_status();
   mesh.request_edge_status();
-  mesh.request_halfedge_status();
   mesh.request_face_status();
   mesh.reserve(soup.points.size(), soup.points.size() + soup.n_faces(), soup.n_faces());
   for (const auto& p : soup.points) mesh.add_vertex(p);
