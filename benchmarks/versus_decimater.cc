@@ -1,0 +1,137 @@
+// anisomesh-remesh against OpenMesh-commandlineDecimater (quadrics), both as processes, on mannequin-devil.
+//
+//   ANISOMESH_DATA=FOLDER versus_decimater [--remesh PROGRAM] [--faces N] [--runs N]
+//
+// Both read the same file and write one. The runs alternate, so that both see the same load of the machine;
+// the median of each is compared. Exits 1 if a bar is missed, 77 if the mesh or the decimater is not there.
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "bench.hh"
+
+extern char** environ;  // NOLINT: POSIX declares it nowhere
+
+using namespace anisomesh;
+
+namespace {
+
+struct Cost {
+  double wall = 0, processor = 0;  // seconds
+};
+
+/// Runs a program to its end, its output thrown away. \throw std::runtime_error unless it exits with 0
+Cost run(const std::vector<std::string>& words) {
+  std::vector<char*> arguments;
+  for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t quiet;
+  posix_spawn_file_actions_init(&quiet);
+  posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&quiet, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  const auto start = std::chrono::steady_clock::now();
+  pid_t child = 0;
+  const int failure = posix_spawnp(&child, arguments[0], &quiet, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&quiet);
+  if (failure != 0) throw std::runtime_error(words[0] + ": " + std::strerror(failure));
+  int status = 0;
+  rusage usage{};
+  wait4(child, &status, 0, &usage);
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw std::runtime_error(words[0] + " failed with status " + std::to_string(status));
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return {wall, seconds(usage.ru_utime) + seconds(usage.ru_stime)};
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+struct Series {
+  std::vector<double> wall, processor;
+  void add(const Cost& cost) {
+    wall.push_back(cost.wall);
+    processor.push_back(cost.processor);
+  }
+};
+
+void print_row(const char* name, const Comparison& c, const Series& series) {
+  std::printf("| %s | %zu | %zu | %.2f | %.4f | %.2f | %.1f | %.1f | %zu | %.3f | %.3f |\n", name, c.vertices,
+              c.faces, c.quad_fraction, 100 * c.two_sided.rms, 100 * c.two_sided.hausdorff,
+              c.mean_alignment_degrees, c.mean_normal_deviation_degrees, c.folded_faces, median(series.wall),
+              median(series.processor));
+}
+
+int compare_with_decimater(const std::string& input, const std::string& program, const std::string& faces,
+                           int runs) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("anisomesh-versus-" + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  const std::string ours = folder / "remesh.off", theirs = folder / "decimated.off";
+  run({program, input, "-o", ours, "--target-faces", faces, "--quiet"});
+  auto result = read_polygons(ours);
+  const std::string vertices = "-" + std::to_string(result.n_vertices());
+  Series remesh, decimater;
+  for (int i = 0; i < runs; ++i) {
+    decimater.add(
+        run({"OpenMesh-commandlineDecimater", "-M", "Q", "-n", vertices, "-i", input, "-o", theirs}));
+    remesh.add(run({program, input, "-o", ours, "--target-faces", faces, "--quiet"}));
+  }
+  auto decimated = read_polygons(theirs);
+  std::filesystem::remove_all(folder);
+  bench::Ruler ruler(read_surface(input));
+  std::printf(
+      "| tool | vertices | faces | quads | rms %% | hausdorff %% | align | normal | folded | wall s | cpu s "
+      "|\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n");
+  print_row("anisomesh-remesh", ruler(result), remesh);
+  print_row("OpenMesh-commandlineDecimater -M Q", ruler(decimated), decimater);
+  std::printf("\n");
+  bench::Bars bars;
+  const double ratio = median(remesh.wall) / median(decimater.wall);
+  bars.check(ratio <= 4, "wall time over the decimater's: " + bench::format("%.2f", ratio) + " (4)");
+  std::printf("- processor time over the decimater's: %.2f\n",
+              median(remesh.processor) / median(decimater.processor));
+  return bars.missed() > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string program = ANISOMESH_REMESH, faces = "4000";
+  int runs = 5;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    if (std::strcmp(argv[i], "--remesh") == 0) program = argv[i + 1];
+    if (std::strcmp(argv[i], "--faces") == 0) faces = argv[i + 1];
+    if (std::strcmp(argv[i], "--runs") == 0) runs = std::max(1, std::stoi(argv[i + 1]));
+  }
+  const auto input = bench::demo_mesh("mannequin-devil.off");
+  if (!input) {
+    std::printf("SKIPPED: mannequin-devil.off is not in the folder ANISOMESH_DATA names\n");
+    return 77;
+  }
+  if (std::system("command -v OpenMesh-commandlineDecimater > /dev/null") != 0) {
+    std::printf("SKIPPED: OpenMesh-commandlineDecimater (package libopenmesh-apps) is not installed\n");
+    return 77;
+  }
+  try {
+    return compare_with_decimater(*input, program, faces, runs);
+  } catch (const std::exception& error) {
+    std::printf("%s\n", error.what());
+    return 1;
+  }
+}
