@@ -1,1 +1,82 @@
 #include "anisomesh/umbilics.hh"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "anisomesh/properties.hh"
+#include "anisomesh/smoothing.hh"
+#include "cut_surface.hh"
+#include "numerics/tensor2d.hh"
+#include "umbilic_analysis.hh"
+
+namespace anisomesh {
+
+namespace {
+
+using namespace detail;
+using CornerDeviators = std::vector<std::array<Vec2d, 3>>;
+
+/// Deviators at the corners of every face; those far below anything a surface of this size shows are rounding
+/// and become 0, so that a plane has no umbilics at all.
+CornerDeviators corner_deviators(const SurfaceRef& surface) {
+  const auto tensors = corner_tensors(surface);
+  double largest = 0;
+  for (const auto& face : tensors)
+    for (const auto& tensor : face) largest = std::max(largest, frobenius_norm(tensor));
+  const double negligible = std::max(1e-10 * largest, 1e-7 / surface.diagonal());
+  CornerDeviators result(tensors.size());
+  for (size_t f = 0; f < tensors.size(); ++f)
+    for (size_t i = 0; i < 3; ++i)
+      result[f][i] = deviator_norm(tensors[f][i]) > negligible ? deviator(tensors[f][i]) : Vec2d(0, 0);
+  return result;
+}
+
+/// Turns of the principal directions along the border and both sides of the features, the surface on the
+/// left, by adding up angles: not the way the indices are found, so that the two can be compared.
+double turning_of_border(const SurfaceRef& surface, const CornerDeviators& deviators) {
+  const auto& mesh = surface.connectivity();
+  double radians = 0;
+  for (const auto f : mesh.all_faces()) {
+    auto h = mesh.halfedge_handle(f);  // from corner 2 to corner 0
+    for (size_t i = 0; i < 3; ++i, h = mesh.next_halfedge_handle(h)) {
+      if (!mesh.is_boundary(mesh.opposite_halfedge_handle(h)) && !is_feature(mesh, mesh.edge_handle(h)))
+        continue;
+      const auto& corner = deviators[static_cast<size_t>(f.idx())];
+      const Vec2d &a = corner[(i + 2) % 3], &b = corner[i];
+      radians += std::atan2(cross2(a, b), a | b);
+    }
+  }
+  return radians / (4 * 3.14159265358979323846);  // the deviator turns twice as fast as the directions
+}
+
+}  // namespace
+
+UmbilicReport find_umbilics(const SurfaceRef& surface) {
+  const auto start = std::chrono::steady_clock::now();
+  auto& mesh = surface.connectivity();
+  require_property(mesh, property::uv);
+  const auto deviators = corner_deviators(surface);
+  UmbilicReport report;
+  std::vector<int> kind(deviators.size(), 0);
+  std::vector<Vec3d> position(deviators.size(), Vec3d(0, 0, 0));
+  for (size_t f = 0; f < deviators.size(); ++f) {
+    kind[f] = doubled_index(deviators[f]);
+    if (kind[f] == 0) continue;
+    position[f] = degenerate_point(deviators[f]);
+    ++(kind[f] > 0 ? report.wedges : report.trisectors);
+  }
+  report.index_sum = 0.5 * (static_cast<double>(report.wedges) - static_cast<double>(report.trisectors));
+  report.border_turning = turning_of_border(surface, deviators);
+
+  const auto umbilic = provide_property(mesh, property::umbilic);
+  const auto umbilic_position = provide_property(mesh, property::umbilic_position);
+  for (const auto f : mesh.all_faces()) {
+    mesh.property(umbilic, f) = kind[static_cast<size_t>(f.idx())];
+    mesh.property(umbilic_position, f) = position[static_cast<size_t>(f.idx())];
+  }
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+}  // namespace anisomesh

@@ -1,0 +1,37 @@
+// The surface cut open along its feature edges, so that what happens on one side never reaches the other.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "anisomesh/surface.hh"
+
+namespace anisomesh::detail {
+
+/// A node is a vertex, or one side of a vertex on a feature. Node v belongs to vertex v; further sides of a
+/// vertex follow after all vertices.
+struct CutSurface {
+  std::vector<std::array<int, 3>> corner_node;  ///< of each face, in the order of SurfaceRef::corners()
+  std::vector<int> vertex_of_node;
+  std::vector<char> on_feature;  ///< of each vertex: whether a feature edge ends there
+  size_t nodes() const { return vertex_of_node.size(); }
+};
+
+/// Reads: edge feature status. The border is no feature here.
+CutSurface cut_along_features(const SurfaceRef& surface);
+
+/// Whether the edge carries OpenMesh's feature status.
+bool is_feature(const OpenMesh::TriConnectivity& mesh, OpenMesh::EdgeHandle edge);
+
+/// The nodes that share a face edge with each node, as one array with offsets.
+struct NodeNeighbours {
+  std::vector<int> offset, node;
+};
+NodeNeighbours node_neighbours(const SurfaceRef& surface, const CutSurface& cut);
+
+/// One tensor a node: that of the vertex; on a feature the mean over the node's neighbours off all features,
+/// or the vertex's own where it has none. [ACDLD03, section 2.5]
+std::vector<Vec3d> one_sided_values(const CutSurface& cut, const NodeNeighbours& neighbours,
+                                    const std::vector<Vec3d>& at_vertices);
+
+}  // namespace anisomesh::detail
