@@ -21,7 +21,12 @@ struct MeshOptions {
   bool convex = true;                ///< split polygons until each is convex
   bool flip_edges = true;            ///< flip edges at isotropic samples where it lowers the error
   double corner_angle_degrees = 45;  ///< as in feature_skeleton()
-  void validate() const;             ///< \throw InvalidOption
+  /// A chain of samples may be straightened as long as they stay this near to it, in units of the epsilon the
+  /// lines were traced with; infinite: straighten wherever it is planar, as the paper does; >= 0
+  double chain_tolerance = 1;
+  double merge_fraction = 0.2;   ///< contract edges shorter than this fraction of those they continue; [0, 1)
+  double max_bend_degrees = 60;  ///< split quads that are bent more along a diagonal; (0, 180]
+  void validate() const;         ///< \throw InvalidOption
 };
 
 struct MeshReport {
@@ -29,6 +34,7 @@ struct MeshReport {
   size_t crossings = 0;     ///< intersections of lines found
   size_t trimmed = 0;       ///< samples removed as dangling or isolated
   size_t straightened = 0;  ///< samples removed on chains
+  size_t merged = 0;        ///< edges contracted because they were too short for their place
   size_t convexity_splits = 0, conforming_edges = 0;
   double arrangement_seconds = 0, decimation_seconds = 0, polygon_seconds = 0;
   double seconds = 0;

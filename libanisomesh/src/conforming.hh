@@ -1,0 +1,25 @@
+// From one region to polygons that are convex and have few corners. [ACDLD03, section 4.3, figure 9]
+#pragma once
+
+#include <vector>
+
+#include "polygon_judge.hh"
+
+namespace anisomesh::detail {
+
+struct PartitionOptions {
+  int max_degree = 4;  ///< 0: no bound
+  bool convex = true;
+};
+
+/// Cuts a simple region into polygons, given as indices into the region's corners, counter-clockwise.
+std::vector<std::vector<int>> partition_region(const RegionCorners& region, const PolygonJudge& judge,
+                                               const PartitionOptions& options);
+
+/// Joins triangles to polygons over their common edges, best first; for regions that are not simple, where a
+/// corner occurs once although the border passes it more than once.
+std::vector<std::vector<int>> join_triangles(const RegionCorners& region,
+                                             std::vector<std::vector<int>> triangles,
+                                             const PolygonJudge& judge, const PartitionOptions& options);
+
+}  // namespace anisomesh::detail

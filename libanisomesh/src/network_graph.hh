@@ -1,0 +1,31 @@
+// The lines, samples, features and the border of a surface as one planar graph. [ACDLD03, section 4.1]
+#pragma once
+
+#include <vector>
+
+#include "anisomesh/lines.hh"
+#include "anisomesh/mesher.hh"
+#include "numerics/planar_graph.hh"
+#include "uv_locator.hh"
+
+namespace anisomesh::detail {
+
+/// A planar graph in (u, v) whose nodes are points of the surface. Edge kinds are EdgeKind.
+struct NetworkGraph {
+  PlanarGraph graph;
+  std::vector<SurfacePoint> points;  ///< of each node
+  std::vector<Vec3d> positions;      ///< of each node, model units
+  std::vector<Origin> origins;       ///< of each node
+  std::vector<char> fixed;           ///< of each node: not to be removed (corners, isotropic samples)
+  size_t crossings = 0;
+};
+
+/// \throw CannotProcess if the border or a feature crosses itself in the plane beyond what rounding explains
+NetworkGraph arrange_network(const SurfaceRef& surface, const UvLocator& locator, const LineNetwork& lines,
+                             double corner_angle_degrees);
+
+inline bool is_line(int kind) {
+  return kind == static_cast<int>(EdgeKind::min) || kind == static_cast<int>(EdgeKind::max);
+}
+
+}  // namespace anisomesh::detail

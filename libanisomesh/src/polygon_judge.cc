@@ -1,0 +1,151 @@
+#include "polygon_judge.hh"
+
+#include <algorithm>
+#include <cmath>
+
+namespace anisomesh::detail {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double degree = pi / 180;
+
+// Weights of the costs, found on the real meshes (docs/mesher.md).
+constexpr double triangle_base = 0.8;  // two triangles instead of one quad of the same shape cost more
+constexpr double shape_weight = 2;
+constexpr double error_weight = 0.3;
+constexpr double max_error_ratio = 10;
+constexpr double bent = 3;         // a quad bent too far: worse than two good triangles
+constexpr double forbidden = 1e3;  // concave, degenerate or folded: only where nothing else is left
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+// Area vector: the normal of the plane of best fit times twice the area (Newell).
+template <class Corners>
+Vec3d area_vector(const Corners& p) {
+  Vec3d sum(0, 0, 0);
+  for (size_t i = 1; i + 1 < p.size(); ++i) sum += cross(p[i] - p[0], p[i + 1] - p[0]);
+  return sum;
+}
+
+// Cost of one corner by its inner angle: none up to a right angle, 1 where it is straight.
+double angle_cost(double angle) {
+  const double beyond = std::max(0.0, std::abs(angle - pi / 2) / (pi / 2));
+  return beyond * beyond;
+}
+
+}  // namespace
+
+PolygonJudge::PolygonJudge(const SurfaceRef& surface, const UvLocator& locator, const JudgeOptions& options)
+    : surface_(surface), locator_(locator), options_(options) {
+  const auto& mesh = surface.connectivity();
+  vertex_normals_.assign(mesh.n_vertices(), Vec3d(0, 0, 0));
+  for (const auto f : mesh.faces()) {
+    const auto c = surface.corners(f);
+    const Vec3d n = cross(surface.point(c.vertex[1]) - surface.point(c.vertex[0]),
+                          surface.point(c.vertex[2]) - surface.point(c.vertex[0]));
+    for (const auto v : c.vertex) vertex_normals_[at(v.idx())] += n;
+  }
+  for (Vec3d& n : vertex_normals_) {
+    const double length = n.norm();
+    if (length > 0) n /= length;
+  }
+}
+
+Vec3d PolygonJudge::surface_normal(const Vec2d& uv, OpenMesh::FaceHandle start) const {
+  const SurfacePoint p = locator_.locate(uv, start);
+  const auto c = surface_.corners(p.face);
+  Vec3d n(0, 0, 0);
+  for (size_t k = 0; k < 3; ++k) n += p.barycentric[k] * vertex_normals_[at(c.vertex[k].idx())];
+  const double length = n.norm();
+  return length > 0 ? n / length : n;
+}
+
+double PolygonJudge::chord_error(const RegionCorners& region, int a, int b) const {
+  bool inside = false;
+  const SurfacePoint p =
+      locator_.locate(0.5 * (region.uv[at(a)] + region.uv[at(b)]), region.face[at(a)], &inside);
+  if (!inside) return 0;
+  const auto c = surface_.corners(p.face);
+  const Vec3d normal = cross(surface_.point(c.vertex[1]) - surface_.point(c.vertex[0]),
+                             surface_.point(c.vertex[2]) - surface_.point(c.vertex[0]));
+  const double length = normal.norm();
+  if (!(length > 0)) return 0;
+  const Vec3d off = position(surface_, p) - 0.5 * (region.position[at(a)] + region.position[at(b)]);
+  return std::abs(off | normal) / length;
+}
+
+double PolygonJudge::error_cost(const RegionCorners& region, int a, int b) const {
+  if (!(options_.epsilon > 0) || !std::isfinite(options_.epsilon)) return 0;
+  return error_weight * std::min(chord_error(region, a, b) / options_.epsilon, max_error_ratio);
+}
+
+double PolygonJudge::triangle_cost(const RegionCorners& region, int a, int b, int c) const {
+  const std::array<Vec3d, 3> p{region.position[at(a)], region.position[at(b)], region.position[at(c)]};
+  const Vec3d area = area_vector(p);
+  double longest = 0, widest = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec3d in = p[k] - p[(k + 2) % 3], out = p[(k + 1) % 3] - p[k];
+    longest = std::max(longest, out | out);
+    widest = std::max(widest, pi - std::atan2(cross(in, out).norm(), in | out));
+  }
+  double cost = triangle_base + shape_weight * angle_cost(std::max(widest, pi / 2));
+  if (!(area.norm() > 1e-5 * longest)) cost += forbidden;
+  if ((area | region.normal) <= 0) cost += forbidden;
+  // Every inner chord is a side of two pieces.
+  const int n = static_cast<int>(region.size());
+  for (const auto& side : {std::array<int, 2>{a, b}, {b, c}, {c, a}})
+    if ((side[0] + 1) % n != side[1]) cost += 0.5 * error_cost(region, side[0], side[1]);
+  return cost;
+}
+
+double PolygonJudge::quad_cost(const RegionCorners& region, const std::array<int, 4>& quad) const {
+  std::array<Vec3d, 4> p;
+  for (size_t k = 0; k < 4; ++k) p[k] = region.position[at(quad[k])];
+  const Vec3d area = area_vector(p);
+  const double length = area.norm();
+  double longest = 0;
+  for (size_t k = 0; k < 4; ++k) longest = std::max(longest, (p[(k + 1) % 4] - p[k]).sqrnorm());
+  if (!(length > 1e-5 * longest)) return 2 * forbidden;
+  const Vec3d normal = area / length;
+  double shape = 0, cost = 1;
+  for (size_t k = 0; k < 4; ++k) {
+    const Vec3d in = p[k] - p[(k + 3) % 4], out = p[(k + 1) % 4] - p[k];
+    const double turn = std::atan2(cross(in, out) | normal, (in | out) - (in | normal) * (out | normal));
+    if (turn < -4 * degree) cost += forbidden;
+    shape = std::max(shape, angle_cost(pi - turn));
+  }
+  if ((normal | region.normal) <= 0) cost += forbidden;
+  cost += shape_weight * shape;
+  // Whoever draws it will use the shorter diagonal.
+  const bool second = (p[1] - p[3]).sqrnorm() < (p[0] - p[2]).sqrnorm();
+  const size_t first_corner = second ? 1 : 0;
+  const Vec3d &a = p[first_corner], &c = p[first_corner + 2];
+  const Vec3d &b = p[(first_corner + 1) % 4], &d = p[(first_corner + 3) % 4];
+  const Vec3d n1 = cross(b - a, c - a), n2 = cross(c - a, d - a);
+  const double bend = std::atan2(cross(n1, n2).norm(), n1 | n2);
+  if (bend > options_.max_bend_degrees * degree) cost += bent;
+  cost += error_cost(region, quad[first_corner], quad[first_corner + 2]);
+  const int n = static_cast<int>(region.size());
+  for (size_t k = 0; k < 4; ++k)
+    if ((quad[k] + 1) % n != quad[(k + 1) % 4]) cost += 0.5 * error_cost(region, quad[k], quad[(k + 1) % 4]);
+  return cost;
+}
+
+bool PolygonJudge::is_convex(const std::vector<Vec3d>& p) {
+  const size_t n = p.size();
+  const Vec3d area = area_vector(p);
+  const double length = area.norm();
+  if (!(length > 0)) return false;
+  const Vec3d normal = area / length;
+  double turns = 0;
+  for (size_t k = 0; k < n; ++k) {
+    const Vec3d in = p[k] - p[(k + n - 1) % n], out = p[(k + 1) % n] - p[k];
+    const double turn = std::atan2(cross(in, out) | normal, (in | out) - (in | normal) * (out | normal));
+    if (turn < -4 * degree) return false;
+    turns += turn;
+  }
+  return turns < 3 * pi;
+}
+
+}  // namespace anisomesh::detail

@@ -1,0 +1,49 @@
+// How good a polygon is in space: convex, not folded, well shaped, near the surface.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "uv_locator.hh"
+
+namespace anisomesh::detail {
+
+/// The corners of one region, as the partition sees them.
+struct RegionCorners {
+  std::vector<int> node;  ///< of the network graph, counter-clockwise in (u, v)
+  std::vector<Vec2d> uv;
+  std::vector<Vec3d> position;
+  std::vector<OpenMesh::FaceHandle> face;  ///< of the surface point
+  Vec3d normal{0, 0, 0};                   ///< unit, of the surface inside the region
+  size_t size() const { return node.size(); }
+};
+
+struct JudgeOptions {
+  double epsilon = 0;           ///< model units; 0 or infinite: not known, no cost for the error
+  double max_bend_degrees = 0;  ///< a quad bent more along a diagonal is split; 180: never
+};
+
+/// Costs are sums over polygons: about 1 for a square, more for what one would rather not have.
+class PolygonJudge {
+ public:
+  PolygonJudge(const SurfaceRef& surface, const UvLocator& locator, const JudgeOptions& options);
+
+  double triangle_cost(const RegionCorners& region, int a, int b, int c) const;
+  double quad_cost(const RegionCorners& region, const std::array<int, 4>& quad) const;
+  /// Distance of the middle of a chord from the surface along the normal, model units.
+  double chord_error(const RegionCorners& region, int a, int b) const;
+  /// Convex in its plane of best fit, up to a tolerance below the 5 degrees that the result is held to.
+  static bool is_convex(const std::vector<Vec3d>& corners);
+  /// Normal of the surface near a point of the parameter plane.
+  Vec3d surface_normal(const Vec2d& uv, OpenMesh::FaceHandle start) const;
+
+ private:
+  double error_cost(const RegionCorners& region, int a, int b) const;
+
+  const SurfaceRef& surface_;
+  const UvLocator& locator_;
+  JudgeOptions options_;
+  std::vector<Vec3d> vertex_normals_;
+};
+
+}  // namespace anisomesh::detail
