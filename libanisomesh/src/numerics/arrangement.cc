@@ -45,13 +45,13 @@ struct Arrangement::Implementation {
   PlanarGraph graph;
   std::vector<Vertex> vertices;  // of each node
   std::vector<Crossing> crossings;
-  Face hint;
+  Vertex last;  // where locating starts: unlike a face, it is not replaced when constraints are inserted
 
   int node_of(Vertex v) const { return v->info(); }
   Vertex new_node(Vertex v) {
     v->info() = graph.add_node(to_vec(v->point()));
     vertices.push_back(v);
-    hint = v->face();
+    last = v;
     return v;
   }
 
@@ -179,7 +179,7 @@ Arrangement::Arrangement(const Vec2d& low, const Vec2d& high)
     const double v = i / 2 ? high[1] + margin[1] : low[1] - margin[1];
     implementation_->cdt.insert(Point(u, v))->info() = -1;
   }
-  implementation_->hint = implementation_->cdt.finite_vertices_begin()->face();
+  implementation_->last = implementation_->cdt.finite_vertices_begin();
 }
 
 Arrangement::~Arrangement() = default;
@@ -189,10 +189,10 @@ int Arrangement::insert_point(const Vec2d& uv) {
   const Point p(uv[0], uv[1]);
   Triangulation::Locate_type type;
   int index = 0;
-  const Face face = self.cdt.locate(p, type, index, self.hint);
+  const Face face = self.cdt.locate(p, type, index, self.last->face());
   if (type == Triangulation::VERTEX) {
-    self.hint = face;
-    return self.node_of(face->vertex(index));
+    self.last = face->vertex(index);
+    return self.node_of(self.last);
   }
   int edge = -1;
   if (type == Triangulation::EDGE && face->is_constrained(index))
