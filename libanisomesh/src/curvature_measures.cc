@@ -7,68 +7,6 @@
 
 namespace anisomesh::detail {
 
-namespace {
-
-/// A face whose height is below this fraction of its longest edge has no normal worth the name.
-constexpr double degenerate_height = 1e-10;
-
-}  // namespace
-
-Vec3d area_vector(const SurfaceArrays& surface, int face) {
-  const Vec3d a = surface.corner_point(face, 1) - surface.corner_point(face, 0);
-  const Vec3d b = surface.corner_point(face, 2) - surface.corner_point(face, 0);
-  const Vec3d vector = a % b;
-  const double longest = std::max({a.sqrnorm(), b.sqrnorm(), (a - b).sqrnorm()});
-  return vector.norm() > degenerate_height * longest ? vector : Vec3d(0, 0, 0);
-}
-
-CornerNormals::CornerNormals(const SurfaceArrays& surface)
-    : sector(static_cast<size_t>(surface.n_faces())),
-      normals(static_cast<size_t>(surface.n_vertices()), Vec3d(0, 0, 0)),
-      vertex_normals(normals) {
-  // Weights 2A / (|a|^2 |b|^2), a and b the edges at the corner: exact on a sphere, whatever the triangles.
-  // [Max 1999, "Weights for computing vertex normals from facet normals"]
-  const auto weighted = [&](int face, int corner) {
-    const Vec3d vector = area_vector(surface, face);
-    const Vec3d& p = surface.corner_point(face, corner);
-    const double lengths = (surface.corner_point(face, (corner + 1) % 3) - p).sqrnorm() *
-                           (surface.corner_point(face, (corner + 2) % 3) - p).sqrnorm();
-    return lengths > 0 ? Vec3d(vector / lengths) : Vec3d(0, 0, 0);
-  };
-  std::vector<int> pending;
-  std::vector<char> done;
-  for (int v = 0; v < surface.n_vertices(); ++v) {
-    const int* star = surface.star_of(v);
-    const int size = surface.star_size(v);
-    done.assign(static_cast<size_t>(size), 0);
-    for (int first = 0; first < size; ++first) {
-      if (done[static_cast<size_t>(first)]) continue;
-      size_t id = static_cast<size_t>(v);
-      if (first > 0) {
-        id = normals.size();
-        normals.emplace_back(0, 0, 0);
-      }
-      pending.assign(1, first);
-      done[static_cast<size_t>(first)] = 1;
-      for (size_t next = 0; next < pending.size(); ++next) {
-        const int face = star[pending[next]], corner = surface.corner_of(face, v);
-        sector[static_cast<size_t>(face)][static_cast<size_t>(corner)] = static_cast<int>(id);
-        normals[id] += weighted(face, corner);
-        for (const int side : {corner, (corner + 2) % 3}) {
-          const int other = surface.neighbours[static_cast<size_t>(face)][static_cast<size_t>(side)];
-          const int where = static_cast<int>(std::find(star, star + size, other) - star);
-          if (other < 0 || where == size || done[static_cast<size_t>(where)]) continue;
-          done[static_cast<size_t>(where)] = 1;
-          pending.push_back(where);
-        }
-      }
-      vertex_normals[static_cast<size_t>(v)] += normals[id].normalize_cond();
-    }
-    if (!(vertex_normals[static_cast<size_t>(v)].normalize_cond().sqrnorm() > 0.5))
-      vertex_normals[static_cast<size_t>(v)] = Vec3d(0, 0, 1);
-  }
-}
-
 CurvatureMeasures::CurvatureMeasures(const SurfaceArrays& surface, const CornerNormals& normals,
                                      CurvatureEstimator estimator)
     : surface_(surface),
@@ -81,26 +19,31 @@ CurvatureMeasures::CurvatureMeasures(const SurfaceArrays& surface, const CornerN
   }
   if (estimator == CurvatureEstimator::normal_cycle) {
     angles_.assign(whole_.size(), {0, 0, 0});
-    for (int f = 0; f < surface.n_faces(); ++f) measure_normal_cycle(f);
+    for (int f = 0; f < surface.n_faces(); ++f) measure_normal_cycle(f, normals);
   } else {
     for (int f = 0; f < surface.n_faces(); ++f) measure_corrected(f, normals);
   }
 }
 
-/// Each face has half of each of its edges. [Cohen-Steiner and Morvan 2003; ACDLD03, equation 1]
-void CurvatureMeasures::measure_normal_cycle(int face) {
+/// Each face has half of the angle of each of its edges. Over a wall there is no other half; this one's is
+/// the angle from the face to the normals at the ends of the edge. [Cohen-Steiner and Morvan 2003; ACDLD03,
+/// equation 1]
+void CurvatureMeasures::measure_normal_cycle(int face, const CornerNormals& normals) {
   const auto f = static_cast<size_t>(face);
   whole_[f].area = areas_[f];
+  if (areas_[f] == 0) return;
   const Vec3d normal = area_vector(surface_, face);
   for (int i = 0; i < 3; ++i) {
-    const int other = surface_.neighbours[f][static_cast<size_t>(i)];
-    if (other < 0 || areas_[f] == 0 || areas_[static_cast<size_t>(other)] == 0) continue;
-    const Vec3d edge = surface_.corner_point(face, (i + 1) % 3) - surface_.corner_point(face, i);
+    const int other = surface_.neighbours[f][static_cast<size_t>(i)], next = (i + 1) % 3;
+    if (other >= 0 && areas_[static_cast<size_t>(other)] == 0) continue;
+    const Vec3d edge = surface_.corner_point(face, next) - surface_.corner_point(face, i);
     const double length = edge.norm();
-    const Vec3d other_normal = area_vector(surface_, other);
-    const double angle = std::atan2(((normal % other_normal) | edge) / length, normal | other_normal);
-    angles_[f][static_cast<size_t>(i)] = angle;
-    whole_[f].tensor += (0.5 * angle / length) * outer(edge);
+    const Vec3d outside =
+        other >= 0 ? area_vector(surface_, other) : normals.at(face, i) + normals.at(face, next);
+    const double angle = std::atan2(((normal % outside) | edge) / length, normal | outside);
+    const double half = other >= 0 ? 0.5 * angle : angle;
+    angles_[f][static_cast<size_t>(i)] = half;
+    whole_[f].tensor += (half / length) * outer(edge);
   }
 }
 
@@ -136,7 +79,7 @@ Measure CurvatureMeasures::clipped(int face, const Vec3d& centre, double radius)
     if (angles_[f][i] == 0) continue;
     const Vec3d edge = p[(i + 1) % 3] - p[i];
     result.tensor +=
-        (0.5 * angles_[f][i] * length_in_ball(p[i], p[(i + 1) % 3], radius) / edge.sqrnorm()) * outer(edge);
+        (angles_[f][i] * length_in_ball(p[i], p[(i + 1) % 3], radius) / edge.sqrnorm()) * outer(edge);
   }
   return result;
 }

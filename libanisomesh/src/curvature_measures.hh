@@ -4,25 +4,11 @@
 #include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
 
 #include "anisomesh/curvature.hh"
+#include "corner_normals.hh"
 #include "numerics/tensor3d.hh"
 #include "surface_arrays.hh"
 
 namespace anisomesh::detail {
-
-/// Normals of the corners of faces. The faces around a vertex fall into sectors between its walls; all
-/// corners in a sector share one normal.
-struct CornerNormals {
-  explicit CornerNormals(const SurfaceArrays& surface);
-
-  std::vector<std::array<int, 3>>
-      sector;                         ///< of each face's corners, into normals; sector v is one of vertex v
-  std::vector<Vec3d> normals;         ///< unit; (0, 0, 0) where no face with an area is
-  std::vector<Vec3d> vertex_normals;  ///< unit, mean over the sectors
-
-  const Vec3d& at(int face, int corner) const {
-    return normals[static_cast<size_t>(sector[static_cast<size_t>(face)][static_cast<size_t>(corner)])];
-  }
-};
 
 /// What a piece of surface adds to the estimate: a tensor times area, and area.
 struct Measure {
@@ -49,18 +35,16 @@ class CurvatureMeasures {
   Vec3d curvature(const Measure& sum, const TangentFrame& frame) const;
 
  private:
-  void measure_normal_cycle(int face);
+  void measure_normal_cycle(int face, const CornerNormals& normals);
   void measure_corrected(int face, const CornerNormals& normals);
 
   const SurfaceArrays& surface_;
   CurvatureEstimator estimator_;
   std::vector<Measure> whole_;
-  std::vector<double> areas_;                  ///< 0 where the face is degenerate
-  std::vector<std::array<double, 3>> angles_;  ///< normal cycle: signed dihedral angle at each edge
+  std::vector<double> areas_;  ///< 0 where the face is degenerate
+  std::vector<std::array<double, 3>>
+      angles_;  ///< normal cycle: this face's half of the signed dihedral angle at each edge
   size_t degenerate_faces_ = 0;
 };
-
-/// The part of whole faces' area vectors: twice the area long, along the normal; zero for a degenerate face.
-Vec3d area_vector(const SurfaceArrays& surface, int face);
 
 }  // namespace anisomesh::detail
