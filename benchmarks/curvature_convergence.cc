@@ -1,4 +1,5 @@
 // Errors of both curvature estimators on closed forms over four refinements, and the time over four sizes.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -10,7 +11,7 @@ using namespace anisomesh;
 
 namespace {
 
-void print_errors(double noise) {
+void print_errors(double noise, const std::vector<int>& sizes) {
   std::printf("noise %.2f %% of the diagonal, radius 1 %% of the diagonal\n", 100 * noise);
   std::printf("%-12s %-6s %-10s %8s | %10s %10s %10s | %10s %10s | %8s\n", "surface", "est", "sampling",
               "vertices", "direction", "curvature", "worst", "dir border", "k border", "order k");
@@ -19,7 +20,7 @@ void print_errors(double noise) {
     for (const auto& form : shapes::curved())
       for (const bool irregular : {false, true}) {
         double previous = 0, previous_vertices = 0;
-        for (const int vertices : {1250, 5000, 20000, 80000}) {
+        for (const int vertices : sizes) {
           auto sampled = shapes::sample(form, vertices, irregular, noise);
           CurvatureOptions options;
           options.estimator = estimator;
@@ -66,11 +67,17 @@ void print_times() {
 
 }  // namespace
 
+/// --errors or --times for one half of it; --quick for two sizes a surface.
 int main(int argc, char** argv) {
-  const bool times_only = argc > 1 && std::strcmp(argv[1], "--times") == 0;
-  if (!times_only) {
-    print_errors(0);
-    print_errors(0.001);
+  const auto asked = [&](const char* option) {
+    return std::any_of(argv + 1, argv + argc,
+                       [&](const char* argument) { return !std::strcmp(argument, option); });
+  };
+  const std::vector<int> sizes =
+      asked("--quick") ? std::vector<int>{5000, 20000} : std::vector<int>{1250, 5000, 20000, 80000};
+  if (!asked("--times")) {
+    print_errors(0, sizes);
+    print_errors(0.001, sizes);
   }
-  print_times();
+  if (!asked("--errors")) print_times();
 }

@@ -11,14 +11,16 @@
 
 #include "anisomesh/errors.hh"
 #include "anisomesh/properties.hh"
+#include "ball_centres.hh"
+#include "ball_flood.hh"
 #include "curvature_measures.hh"
-#include "numerics/ball_clip.hh"
 #include "numerics/tensor2d.hh"
 
 namespace anisomesh {
 
 namespace {
 
+using detail::BallFlood;
 using detail::CornerNormals;
 using detail::CurvatureMeasures;
 using detail::Measure;
@@ -43,56 +45,18 @@ VertexCurvature principal(const Vec3d& tensor, const TangentFrame& frame) {
   return result;
 }
 
-/// Sums measures over the part of the surface in a ball that is connected to where it starts.
-class BallFlood {
- public:
-  BallFlood(const SurfaceArrays& surface, const CurvatureMeasures& measures)
-      : surface_(&surface), measures_(&measures), visited_(static_cast<size_t>(surface.n_faces()), 0) {}
+/// How many times the longest edge at a vertex its ball has to measure at least, by estimator. Measured:
+/// docs/curvature.md.
+double ring_factor(CurvatureEstimator estimator) {
+  return estimator == CurvatureEstimator::normal_cycle ? 2 : 1.5;
+}
 
-  /// Forgets which faces were visited.
-  void reset() { ++stamp_; }
-  bool visited(int face) const { return visited_[static_cast<size_t>(face)] == stamp_; }
+/// A centre covers vertices within this fraction of the ball's radius, ...
+constexpr double cover_fraction = 0.4;
+/// ... and gives its value to vertices within this one, which is larger so that several centres mix.
+constexpr double donor_fraction = 0.6;
 
-  Measure sum(int first_face, const Vec3d& centre, double radius) {
-    Measure total;
-    visit(first_face);
-    while (!pending_.empty()) {
-      const int face = pending_.back();
-      pending_.pop_back();
-      Vec3d p[3];
-      bool inside[3];
-      for (int i = 0; i < 3; ++i) {
-        p[i] = surface_->corner_point(face, i) - centre;
-        inside[i] = p[i].sqrnorm() <= radius * radius;
-      }
-      if (inside[0] && inside[1] && inside[2])
-        total += measures_->whole(face);
-      else
-        total += measures_->clipped(face, centre, radius);
-      for (size_t i = 0; i < 3; ++i) {
-        const int next = surface_->neighbours[static_cast<size_t>(face)][i];
-        if (next < 0 || visited(next)) continue;
-        if (inside[i] || inside[(i + 1) % 3] || detail::meets_ball(p[i], p[(i + 1) % 3], radius)) visit(next);
-      }
-    }
-    return total;
-  }
-
- private:
-  void visit(int face) {
-    visited_[static_cast<size_t>(face)] = stamp_;
-    pending_.push_back(face);
-  }
-
-  const SurfaceArrays* surface_;
-  const CurvatureMeasures* measures_;
-  std::vector<unsigned> visited_;
-  unsigned stamp_ = 0;
-  std::vector<int> pending_;
-};
-
-/// The radius that holds the 1-ring with room to spare.
-double ring_radius(const SurfaceArrays& surface, int vertex, double factor) {
+double longest_edge(const SurfaceArrays& surface, int vertex) {
   double longest = 0;
   for (int i = 0; i < surface.star_size(vertex); ++i) {
     const int face = surface.star_of(vertex)[i], corner = surface.corner_of(face, vertex);
@@ -100,34 +64,147 @@ double ring_radius(const SurfaceArrays& surface, int vertex, double factor) {
     longest = std::max({longest, (surface.corner_point(face, (corner + 1) % 3) - p).sqrnorm(),
                         (surface.corner_point(face, (corner + 2) % 3) - p).sqrnorm()});
   }
-  return factor * std::sqrt(longest);
+  return std::sqrt(longest);
 }
 
-/// The estimate at a vertex; where walls part its star, the mean of the parts, each turned into the common
-/// tangent plane. [ACDLD03, section 2.5]
-VertexCurvature estimate_vertex(const SurfaceArrays& surface, const CornerNormals& normals,
-                                const CurvatureMeasures& measures, BallFlood& flood, int vertex,
-                                double radius) {
-  const Vec3d& normal = normals.of_vertex(vertex);
-  const TangentFrame frame(normal);
-  const Vec3d& centre = surface.points[static_cast<size_t>(vertex)];
-  flood.reset();
-  Vec6d sum(0, 0, 0, 0, 0, 0);
-  double area = 0;
-  for (int i = 0; i < surface.star_size(vertex); ++i) {
-    const int face = surface.star_of(vertex)[i];
-    if (flood.visited(face)) continue;
-    const Measure part = flood.sum(face, centre, radius);
-    const Vec3d& side = normals.at(face, surface.corner_of(face, vertex));
-    if (!(part.area > 0) || !(side.sqrnorm() > 0.5)) continue;
-    const TangentFrame side_frame(side);
-    const Vec3d tensor = measures.curvature(part, side_frame);
-    sum += part.area * detail::in_space(tensor, detail::turned(side_frame, side, normal));
-    area += part.area;
+/// Averages measures over balls and turns them into curvatures.
+class Estimation {
+ public:
+  Estimation(const SurfaceRef& surface, const CurvatureOptions& options)
+      : arrays_(surface),
+        normals_(arrays_),
+        measures_(arrays_, normals_, options.estimator),
+        base_radius_(options.radius_fraction * surface.diagonal()),
+        radii_(static_cast<size_t>(arrays_.n_vertices())),
+        result_(radii_.size()),
+        donated_(radii_.size()) {
+    std::vector<double> reach(radii_.size());
+    for (int v = 0; v < arrays_.n_vertices(); ++v) {
+      const double ring = ring_factor(options.estimator) * longest_edge(arrays_, v);
+      const auto i = static_cast<size_t>(v);
+      enlarged_balls_ += ring > base_radius_;
+      radii_[i] = std::max(base_radius_, ring);
+      // Where the ball had to be enlarged, faces are large already: leave hardly any vertex out.
+      reach[i] = cover_fraction * base_radius_ * (base_radius_ / radii_[i]);
+    }
+    centres_ = detail::choose_centres(arrays_, reach);
+    is_centre_.assign(radii_.size(), 0);
+    for (const int c : centres_) is_centre_[static_cast<size_t>(c)] = 1;
   }
-  if (area > 0) sum /= area;
-  return principal(detail::in_frame(sum, frame), frame);
-}
+
+  void run(const Progress& progress) {
+    tbb::enumerable_thread_specific<BallFlood> floods([&] { return BallFlood(arrays_); });
+    std::vector<std::vector<Gift>> gifts(batch_size);
+    const size_t count = centres_.size();
+    for (size_t begin = 0; begin < count; begin += batch_size) {
+      const size_t end = std::min(count, begin + batch_size);
+      tbb::parallel_for(tbb::blocked_range<size_t>(begin, end, 64), [&](const auto& range) {
+        BallFlood& flood = floods.local();
+        for (size_t i = range.begin(); i < range.end(); ++i)
+          visit_centre(centres_[i], flood, gifts[i - begin]);
+      });
+      for (size_t i = begin; i < end;
+           ++i)  // in one order, so that the sums are the same for all thread counts
+        for (const Gift& gift : gifts[i - begin]) donated_[gift.vertex] += gift.part;
+      report_progress(progress, 0.1 + 0.8 * static_cast<double>(end) / static_cast<double>(count));
+    }
+    tbb::parallel_for(size_t{0}, result_.size(), [&](size_t v) {
+      if (is_centre_[v]) return;
+      const TangentFrame frame(normals_.of_vertex(static_cast<int>(v)));
+      result_[v] = principal(measures_.curvature(donated_[v], frame), frame);
+    });
+  }
+
+  const CornerNormals& normals() const { return normals_; }
+  const std::vector<VertexCurvature>& result() const { return result_; }
+  size_t enlarged_balls() const { return enlarged_balls_; }
+  size_t degenerate_faces() const { return measures_.degenerate_faces(); }
+
+ private:
+  /// What a centre gives to a vertex that is none: its average, as if over an area that is the weight.
+  struct Gift {
+    size_t vertex;
+    Measure part;
+  };
+  static constexpr size_t batch_size = 4096;
+
+  Measure sum(int face, int centre, BallFlood& flood) const {
+    Measure total;
+    const Vec3d& point = arrays_.points[static_cast<size_t>(centre)];
+    const double radius = radii_[static_cast<size_t>(centre)];
+    flood.walk(face, point, radius, [&](int f, bool whole) {
+      total += whole ? measures_.whole(f) : measures_.clipped(f, point, radius);
+    });
+    return total;
+  }
+
+  void visit_centre(int centre, BallFlood& flood, std::vector<Gift>& gifts) {
+    gifts.clear();
+    const auto c = static_cast<size_t>(centre);
+    if (arrays_.at_wall[c] || arrays_.star_size(centre) == 0) {
+      result_[c] = estimate_at_wall(centre, flood);
+      return;
+    }
+    flood.reset();
+    const Measure total = sum(arrays_.star_of(centre)[0], centre, flood);
+    const TangentFrame frame(normals_.of_vertex(centre));
+    result_[c] = principal(measures_.curvature(total, frame), frame);
+    if (total.area > 0) give(centre, total, flood, gifts);
+  }
+
+  /// Collects gifts to the vertices near a centre among those of the last walk.
+  void give(int centre, const Measure& total, const BallFlood& flood, std::vector<Gift>& gifts) const {
+    const auto c = static_cast<size_t>(centre);
+    const double radius = donor_fraction * radii_[c];
+    for (const int face : flood.faces())
+      for (const int corner : arrays_.corners[static_cast<size_t>(face)]) {
+        const auto v = static_cast<size_t>(corner);
+        if (is_centre_[v]) continue;
+        // Every face around the vertex comes by: only the first of its star speaks for it.
+        if (arrays_.star_of(corner)[0] != face) continue;
+        const double t = (arrays_.points[v] - arrays_.points[c]).sqrnorm() / (radius * radius);
+        if (t >= 1) continue;
+        Gift gift{v, total};
+        gift.part.area = (1 - t) * (1 - t);
+        gift.part.tensor *= gift.part.area / total.area;
+        gifts.push_back(gift);
+      }
+  }
+
+  /// The estimate where walls may part the star: the mean of the parts, each turned into the common tangent
+  /// plane. [ACDLD03, section 2.5]
+  VertexCurvature estimate_at_wall(int vertex, BallFlood& flood) const {
+    const Vec3d& normal = normals_.of_vertex(vertex);
+    const TangentFrame frame(normal);
+    flood.reset();
+    Vec6d mean(0, 0, 0, 0, 0, 0);
+    double area = 0;
+    for (int i = 0; i < arrays_.star_size(vertex); ++i) {
+      const int face = arrays_.star_of(vertex)[i];
+      if (flood.visited(face)) continue;
+      const Measure part = sum(face, vertex, flood);
+      const Vec3d& side = normals_.at(face, arrays_.corner_of(face, vertex));
+      if (!(part.area > 0) || !(side.sqrnorm() > 0.5)) continue;
+      const TangentFrame side_frame(side);
+      mean += part.area * detail::in_space(measures_.curvature(part, side_frame),
+                                           detail::turned(side_frame, side, normal));
+      area += part.area;
+    }
+    if (area > 0) mean /= area;
+    return principal(detail::in_frame(mean, frame), frame);
+  }
+
+  SurfaceArrays arrays_;
+  CornerNormals normals_;
+  CurvatureMeasures measures_;
+  double base_radius_;
+  std::vector<double> radii_;
+  std::vector<int> centres_;
+  std::vector<char> is_centre_;
+  std::vector<VertexCurvature> result_;
+  std::vector<Measure> donated_;
+  size_t enlarged_balls_ = 0;
+};
 
 void write_properties(OpenMesh::TriConnectivity& mesh, const CornerNormals& normals,
                       const std::vector<VertexCurvature>& result) {
@@ -160,33 +237,14 @@ CurvatureReport estimate_curvature(const SurfaceRef& surface, const CurvatureOpt
   const auto start = std::chrono::steady_clock::now();
   options.validate();
   report_progress(progress, 0);
-  const SurfaceArrays arrays(surface);
-  const CornerNormals normals(arrays);
-  const CurvatureMeasures measures(arrays, normals, options.estimator);
+  Estimation estimation(surface, options);
+  report_progress(progress, 0.1);
+  estimation.run(progress);
+  write_properties(surface.connectivity(), estimation.normals(), estimation.result());
   CurvatureReport report;
   report.radius = options.radius_fraction * surface.diagonal();
-  report.degenerate_faces = measures.degenerate_faces();
-
-  std::vector<VertexCurvature> result(static_cast<size_t>(arrays.n_vertices()));
-  std::vector<double> radii(result.size());
-  for (int v = 0; v < arrays.n_vertices(); ++v) {
-    const double ring = ring_radius(arrays, v, getenv("FACTOR") ? atof(getenv("FACTOR")) : 1.0);
-    radii[static_cast<size_t>(v)] = std::max(report.radius, ring);
-    report.enlarged_balls += ring > report.radius;
-  }
-  tbb::enumerable_thread_specific<BallFlood> floods([&] { return BallFlood(arrays, measures); });
-  const int batches = progress ? 20 : 1, count = arrays.n_vertices();
-  for (int batch = 0; batch < batches; ++batch) {
-    const auto bound = [&](int b) { return static_cast<int>(static_cast<long long>(count) * b / batches); };
-    tbb::parallel_for(tbb::blocked_range<int>(bound(batch), bound(batch + 1), 256), [&](const auto& range) {
-      BallFlood& flood = floods.local();
-      for (int v = range.begin(); v < range.end(); ++v)
-        result[static_cast<size_t>(v)] =
-            estimate_vertex(arrays, normals, measures, flood, v, radii[static_cast<size_t>(v)]);
-    });
-    report_progress(progress, static_cast<double>(batch + 1) / batches);
-  }
-  write_properties(surface.connectivity(), normals, result);
+  report.enlarged_balls = estimation.enlarged_balls();
+  report.degenerate_faces = estimation.degenerate_faces();
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }

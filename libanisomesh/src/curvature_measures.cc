@@ -57,7 +57,8 @@ void CurvatureMeasures::measure_corrected(int face, const CornerNormals& normals
   const Vec3d a = surface_.corner_point(face, 1) - surface_.corner_point(face, 0);
   const Vec3d b = surface_.corner_point(face, 2) - surface_.corner_point(face, 0);
   const Vec3d mean = (u + v + w) / 3;
-  whole_[f].area = 0.5 * (mean | (a % b));
+  // Where the normals fold over against the face the measure could vanish: keep it a fair part of the area.
+  whole_[f].area = std::max(0.5 * (mean | (a % b)), 0.1 * areas_[f]);
   whole_[f].tensor = 0.5 * (symmetric_outer(b % mean, v - u) - symmetric_outer(a % mean, w - u));
 }
 
