@@ -13,11 +13,12 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-double distance_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
+// From the nearest point of the segment to p.
+Vec3d off_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
   const Vec3d along = b - a;
   const double squared = along | along;
   const double t = squared > 0 ? std::clamp(((p - a) | along) / squared, 0.0, 1.0) : 0.0;
-  return (p - a - t * along).norm();
+  return p - a - t * along;
 }
 
 class Decimator {
@@ -128,6 +129,7 @@ void Decimator::order_chain(const std::vector<int>& chain, std::vector<std::pair
   };
   const int last = static_cast<int>(chain.size()) - 1;
   const bool loop = chain.front() == chain.back();
+  const bool line = is_line(graph_.edge(graph_.find_edge(chain[0], chain[1])).kind);
   std::vector<Range> ranges;
   int begin = 0;
   if (loop)
@@ -145,7 +147,10 @@ void Decimator::order_chain(const std::vector<int>& chain, std::vector<std::pair
     int split = (r.begin + r.end) / 2;
     double farthest = -1;
     for (int i = r.begin + 1; i < r.end; ++i) {
-      const double d = distance_to_segment(network_.positions[at(chain[at(i)])], a, b);
+      const int node = chain[at(i)];
+      const Vec3d off = off_segment(network_.positions[at(node)], a, b);
+      // A line may turn within the surface at will; the border and features have a shape of their own.
+      const double d = line ? std::abs(off | network_.normals[at(node)]) : off.norm();
       if (d > farthest) {
         farthest = d;
         split = i;

@@ -33,9 +33,8 @@ class Stopwatch {
 };
 
 double epsilon_of(const OpenMesh::TriConnectivity& mesh) {
-  OpenMesh::MPropHandleT<double> handle;
-  if (!mesh.get_property_handle(handle, "anisomesh:epsilon")) return std::numeric_limits<double>::infinity();
-  return mesh.property(handle);
+  if (!has_property(mesh, property::epsilon)) return std::numeric_limits<double>::infinity();
+  return mesh.property(require_property(mesh, property::epsilon));
 }
 
 // A sample that was kept to hold a chain near the surface, or a place where lines meet.
@@ -146,7 +145,9 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
   const detail::UvLocator locator(surface);
   const double epsilon = epsilon_of(surface.connectivity());
 
-  NetworkGraph network = detail::arrange_network(surface, locator, lines, options.corner_angle_degrees);
+  const detail::SurfaceNormals normals(surface);
+  NetworkGraph network =
+      detail::arrange_network(surface, locator, normals, lines, options.corner_angle_degrees);
   local.crossings = network.crossings;
   local.arrangement_seconds = stopwatch.lap();
   report_progress(progress, 0.5);
@@ -159,7 +160,7 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
   local.decimation_seconds = stopwatch.lap();
   report_progress(progress, 0.7);
 
-  const detail::PolygonJudge judge(surface, locator, {epsilon, options.max_bend_degrees});
+  const detail::PolygonJudge judge(surface, locator, normals, {epsilon, options.max_bend_degrees});
   const auto set = detail::extract_polygons(network, judge, {options.max_degree, options.convex});
   local.convexity_splits = set.convexity_splits;
   local.conforming_edges = set.conforming_edges;

@@ -275,9 +275,13 @@ void Builder::settle_crossings() {
 
 }  // namespace
 
-NetworkGraph arrange_network(const SurfaceRef& surface, const UvLocator& locator, const LineNetwork& lines,
+NetworkGraph arrange_network(const SurfaceRef& surface, const UvLocator& locator,
+                             const SurfaceNormals& normals, const LineNetwork& lines,
                              double corner_angle_degrees) {
-  return Builder(surface, locator, lines, corner_angle_degrees).build();
+  NetworkGraph network = Builder(surface, locator, lines, corner_angle_degrees).build();
+  network.normals.reserve(network.points.size());
+  for (const SurfacePoint& p : network.points) network.normals.push_back(normals.at(p));
+  return network;
 }
 
 }  // namespace anisomesh::detail

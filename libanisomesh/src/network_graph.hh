@@ -6,6 +6,7 @@
 #include "anisomesh/lines.hh"
 #include "anisomesh/mesher.hh"
 #include "numerics/planar_graph.hh"
+#include "surface_normals.hh"
 #include "uv_locator.hh"
 
 namespace anisomesh::detail {
@@ -15,13 +16,15 @@ struct NetworkGraph {
   PlanarGraph graph;
   std::vector<SurfacePoint> points;  ///< of each node
   std::vector<Vec3d> positions;      ///< of each node, model units
+  std::vector<Vec3d> normals;        ///< of the surface at each node
   std::vector<Origin> origins;       ///< of each node
   std::vector<char> fixed;           ///< of each node: not to be removed (corners, isotropic samples)
   size_t crossings = 0;
 };
 
 /// \throw CannotProcess if the border or a feature crosses itself in the plane beyond what rounding explains
-NetworkGraph arrange_network(const SurfaceRef& surface, const UvLocator& locator, const LineNetwork& lines,
+NetworkGraph arrange_network(const SurfaceRef& surface, const UvLocator& locator,
+                             const SurfaceNormals& normals, const LineNetwork& lines,
                              double corner_angle_degrees);
 
 inline bool is_line(int kind) {

@@ -36,29 +36,12 @@ double angle_cost(double angle) {
 
 }  // namespace
 
-PolygonJudge::PolygonJudge(const SurfaceRef& surface, const UvLocator& locator, const JudgeOptions& options)
-    : surface_(surface), locator_(locator), options_(options) {
-  const auto& mesh = surface.connectivity();
-  vertex_normals_.assign(mesh.n_vertices(), Vec3d(0, 0, 0));
-  for (const auto f : mesh.faces()) {
-    const auto c = surface.corners(f);
-    const Vec3d n = cross(surface.point(c.vertex[1]) - surface.point(c.vertex[0]),
-                          surface.point(c.vertex[2]) - surface.point(c.vertex[0]));
-    for (const auto v : c.vertex) vertex_normals_[at(v.idx())] += n;
-  }
-  for (Vec3d& n : vertex_normals_) {
-    const double length = n.norm();
-    if (length > 0) n /= length;
-  }
-}
+PolygonJudge::PolygonJudge(const SurfaceRef& surface, const UvLocator& locator, const SurfaceNormals& normals,
+                           const JudgeOptions& options)
+    : surface_(surface), locator_(locator), normals_(normals), options_(options) {}
 
 Vec3d PolygonJudge::surface_normal(const Vec2d& uv, OpenMesh::FaceHandle start) const {
-  const SurfacePoint p = locator_.locate(uv, start);
-  const auto c = surface_.corners(p.face);
-  Vec3d n(0, 0, 0);
-  for (size_t k = 0; k < 3; ++k) n += p.barycentric[k] * vertex_normals_[at(c.vertex[k].idx())];
-  const double length = n.norm();
-  return length > 0 ? n / length : n;
+  return normals_.at(locator_.locate(uv, start));
 }
 
 double PolygonJudge::chord_error(const RegionCorners& region, int a, int b) const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "surface_normals.hh"
 #include "uv_locator.hh"
 
 namespace anisomesh::detail {
@@ -26,7 +27,8 @@ struct JudgeOptions {
 /// Costs are sums over polygons: about 1 for a square, more for what one would rather not have.
 class PolygonJudge {
  public:
-  PolygonJudge(const SurfaceRef& surface, const UvLocator& locator, const JudgeOptions& options);
+  PolygonJudge(const SurfaceRef& surface, const UvLocator& locator, const SurfaceNormals& normals,
+               const JudgeOptions& options);
 
   double triangle_cost(const RegionCorners& region, int a, int b, int c) const;
   double quad_cost(const RegionCorners& region, const std::array<int, 4>& quad) const;
@@ -42,8 +44,8 @@ class PolygonJudge {
 
   const SurfaceRef& surface_;
   const UvLocator& locator_;
+  const SurfaceNormals& normals_;
   JudgeOptions options_;
-  std::vector<Vec3d> vertex_normals_;
 };
 
 }  // namespace anisomesh::detail
