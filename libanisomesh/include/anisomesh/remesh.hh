@@ -1,4 +1,4 @@
-// All stages in one call.
+// All stages in one call, and the search for the epsilon that gives a wanted number of faces.
 #pragma once
 
 #include <OpenMesh/Core/Mesh/DefaultPolyMesh.hh>
@@ -13,35 +13,57 @@
 
 namespace anisomesh {
 
-struct RemeshOptions {
+struct TargetOptions {
+  size_t target_faces = 0;     ///< about so many faces; 0: no target
+  size_t target_vertices = 0;  ///< about so many vertices; 0: no target; not both
+  double tolerance = 0.03;  ///< the search ends when the count is within this fraction of the target; (0, 1)
+  int max_attempts = 8;   ///< lines are traced at most so often; from the third on 10 % is near enough; >= 1
+  void validate() const;  ///< \throw InvalidOption
+};
+
+struct RemeshOptions : TargetOptions {
   FeatureOptions features;
   CurvatureOptions curvature;
   SmoothingOptions smoothing;
   TraceOptions trace;  ///< trace.density.epsilon_fraction is ignored where a target is given
   MeshOptions mesh;
-  size_t target_faces = 0;     ///< find epsilon so that the result has about so many faces; 0: epsilon rules
-  size_t target_vertices = 0;  ///< the same for vertices; not both
-  void validate() const;       ///< \throw InvalidOption
+  void validate() const;  ///< \throw InvalidOption
 };
 
-struct RemeshReport {
-  FeatureReport features;
-  CurvatureReport curvature;
-  FlattenReport flatten;
-  SmoothingReport smoothing;
-  UmbilicReport umbilics;
+/// What the last three stages did.
+struct TraceAndMeshReport {
   TraceReport trace;
   IsotropicReport isotropic;
   MeshReport mesh;
   double epsilon_fraction = 0;  ///< that was used in the end
   int attempts = 1;             ///< times lines were traced to meet the target
-  bool target_met = true;       ///< within 10 %
+  bool target_met = true;       ///< within 10 %, or no target
+  double attempts_seconds = 0;  ///< all of them
+};
+
+struct RemeshReport : TraceAndMeshReport {
+  FeatureReport features;
+  CurvatureReport curvature;
+  FlattenReport flatten;
+  SmoothingReport smoothing;
+  UmbilicReport umbilics;
   double seconds = 0;
 };
 
+/// Traces lines, places isotropic samples and builds polygons; where a target is given, with the epsilon that
+/// meets it: count is about proportional to 1/epsilon, and a few attempts find the rest.
+/// Reads: what trace_lines() reads. Writes: what trace_lines() and place_isotropic_samples() write.
+/// \throw as these and build_polygons()
+OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions& trace = {},
+                                  const MeshOptions& mesh = {}, const TargetOptions& target = {},
+                                  TraceAndMeshReport* report = nullptr, const Progress& progress = {});
+
 /// Remeshes a disc-like patch: tag_features, estimate_curvature, flatten, smooth_tensors, find_umbilics,
-/// trace_lines, place_isotropic_samples, build_polygons. [ACDLD03] Leaves the properties of all stages on the
-/// input mesh.
+/// trace_lines, place_isotropic_samples, build_polygons. [ACDLD03]
+/// Reads: points, edge feature status. Writes: on the input mesh the properties of all stages; after a throw
+/// or a cancel those of the stages that were done by then.
+/// \pre one component with one border loop \throw InvalidOption, InvalidInput, CannotProcess, SolverFailure,
+/// Cancelled
 OpenMesh::PolyMesh remesh(const SurfaceRef& surface, const RemeshOptions& options = {},
                           RemeshReport* report = nullptr, const Progress& progress = {});
 

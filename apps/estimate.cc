@@ -1,0 +1,35 @@
+// anisomesh-estimate: feature edges and curvature tensors.
+#include <nlohmann/json.hpp>
+
+#include "anisomesh/io.hh"
+#include "support/command.hh"
+#include "support/options.hh"
+#include "support/reports.hh"
+
+int main(int argc, char* argv[]) {
+  apps::Command command("anisomesh-estimate",
+                        "First stage: tags feature edges and estimates curvature tensors at the vertices.");
+  std::string input, output;
+  apps::FeatureFlags features;
+  anisomesh::CurvatureOptions curvature;
+  command.input(input, "input", "The surface: .obj, .off, .ply, .stl or .om");
+  command.output(output, "Where to write the surface; only .om keeps what was found");
+  apps::add_feature_options(command, features);
+  apps::add_curvature_options(command, curvature);
+
+  return command.run(argc, argv, [&] {
+    curvature.validate();
+    anisomesh::ReadReport read;
+    auto mesh = apps::read_surface(command, input, &read);
+    const anisomesh::SurfaceRef surface = mesh;
+    const auto tagged = anisomesh::tag_features(surface, apps::resolve(features, read));
+    const auto estimated = anisomesh::estimate_curvature(surface, curvature, command.progress("curvature"));
+    command.stop_if_cancelled();
+    anisomesh::write_mesh(mesh, output);
+    command.report()["features"] = apps::to_json(tagged);
+    command.report()["curvature"] = apps::to_json(estimated);
+    command.report()["output"] = output;
+    command.say(output + ": curvature at " + std::to_string(mesh.n_vertices()) + " vertices, " +
+                std::to_string(tagged.feature_edges) + " feature edges, " + apps::seconds(estimated.seconds));
+  });
+}

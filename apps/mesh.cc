@@ -1,0 +1,31 @@
+// anisomesh-mesh: polygons from lines of curvature.
+#include <nlohmann/json.hpp>
+
+#include "anisomesh/io.hh"
+#include "support/command.hh"
+#include "support/options.hh"
+#include "support/reports.hh"
+
+int main(int argc, char* argv[]) {
+  apps::Command command("anisomesh-mesh",
+                        "Fourth stage: builds the polygonal mesh from the lines of curvature.");
+  std::string input, output;
+  anisomesh::MeshOptions polygons;
+  command.input(input, "input", "What anisomesh-trace wrote, .om");
+  command.output(output,
+                 "Where to write the result: .obj, .off, .ply or .om (with the origin of each element)");
+  apps::add_mesh_options(command, polygons);
+
+  return command.run(argc, argv, [&] {
+    polygons.validate();
+    auto mesh = apps::read_surface(command, input);
+    anisomesh::MeshReport report;
+    const auto result = anisomesh::build_polygons(mesh, polygons, &report, command.progress("polygons"));
+    command.stop_if_cancelled();
+    anisomesh::write_mesh(result, output);
+    command.report()["mesh"] = apps::to_json(report);
+    command.report()["result"] = apps::mesh_json(result);
+    command.report()["output"] = output;
+    command.say(output + ": " + apps::mesh_summary(result) + ", " + apps::seconds(report.seconds));
+  });
+}

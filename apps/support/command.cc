@@ -1,0 +1,164 @@
+#include "support/command.hh"
+
+#include <tbb/global_control.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "anisomesh/errors.hh"
+#include "anisomesh/io.hh"
+#include "support/progress_bar.hh"
+
+namespace apps {
+
+namespace {
+
+volatile std::sig_atomic_t stop_signal = 0;
+
+void remember_signal(int signal) { stop_signal = signal; }
+
+/// The first Ctrl-C asks to stop at the next report of progress; the second one stops at once.
+void catch_signals() {
+  struct sigaction action = {};
+  action.sa_handler = remember_signal;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+std::string one_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  for (char& c : text)
+    if (c == '\n') c = ' ';
+  return text;
+}
+
+}  // namespace
+
+Command::Command(const std::string& name, const std::string& description)
+    : name_(name),
+      app_(std::make_unique<CLI::App>(description, name)),
+      report_(std::make_unique<Json>(Json::object())) {
+  app_->set_version_flag("--version", name + " " + ANISOMESH_VERSION);
+  app_->get_formatter()->column_width(34);
+  app_->option_defaults()->always_capture_default();
+  app_->add_option("--json", json_path_, "Write the report as JSON to this file; - is the standard output")
+      ->type_name("FILE")
+      ->group("General");
+  app_->add_option("--threads", threads_, "Threads to use; 0: one for each processor; the result is the same")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N")
+      ->group("General");
+  app_->add_flag("-q,--quiet", quiet_, "No progress, summary or warnings")->group("General");
+  app_->get_help_ptr()->group("General");
+  app_->get_version_ptr()->group("General");
+  app_->footer(
+      "Exit codes: 0 done, 2 usage, 3 bad input or a place that cannot be written, 4 the input cannot be "
+      "processed, "
+      "130 cancelled.");
+}
+
+Command::~Command() = default;
+
+void Command::input(std::string& path, const std::string& name, const std::string& help) {
+  app_->add_option(name, path, help)->required()->type_name("FILE")->capture_default_str();
+  if (!input_) input_ = &path;
+}
+
+void Command::output(std::string& path, const std::string& help) {
+  app_->add_option("-o,--output", path, help)->required()->type_name("FILE");
+  output_ = &path;
+}
+
+int Command::run(int argc, char* argv[], const std::function<void()>& work) {
+  try {
+    app_->parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app_->help();
+    return exit_done;
+  } catch (const CLI::CallForVersion& version) {
+    std::cout << version.what() << "\n";
+    return exit_done;
+  } catch (const CLI::ParseError& error) {
+    std::cerr << name_ << ": " << one_line(error.what()) << "; " << name_ << " --help lists the options\n";
+    return exit_usage;
+  }
+  catch_signals();
+  return work_and_report(work);
+}
+
+int Command::work_and_report(const std::function<void()>& work) {
+  using namespace anisomesh;
+  const auto start = std::chrono::steady_clock::now();
+  std::optional<tbb::global_control> limit;
+  if (threads_ > 0)
+    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads_));
+  try {
+    // What cannot end well does not begin.
+    if (output_) require_writable_mesh(*output_);
+    if (!json_path_.empty() && json_path_ != "-") require_writable(json_path_);
+    work();
+    if (!json_path_.empty()) {
+      (*report_)["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const std::string text = report_->dump(2) + "\n";
+      if (json_path_ == "-")
+        std::cout << text << std::flush;
+      else
+        write_text(text, json_path_);
+    }
+    if (!std::cout.flush()) return fail(exit_bad_input, "the standard output cannot be written");
+    return exit_done;
+  } catch (const Cancelled&) {
+    return fail(stop_signal == SIGTERM ? 128 + SIGTERM : exit_cancelled, "cancelled; nothing was written");
+  } catch (const InvalidOption& error) {
+    return fail(exit_usage, error.what());
+  } catch (const InvalidInput& error) {
+    return fail(exit_bad_input, error.what(), true);
+  } catch (const CannotProcess& error) {
+    return fail(exit_cannot, error.what(), true);
+  } catch (const SolverFailure& error) {
+    return fail(exit_cannot, error.what(), true);
+  } catch (const std::bad_alloc&) {
+    return fail(exit_cannot, "there is not enough memory for this input and these options", true);
+  } catch (const std::exception& error) {
+    return fail(exit_internal, std::string("internal error: ") + error.what(), true);
+  }
+}
+
+int Command::fail(int code, const std::string& message, bool about_input) const {
+  const auto begins_with = [&](const std::string* path) {
+    return path && message.rfind(*path + ":", 0) == 0;
+  };
+  const bool named = begins_with(input_) || begins_with(output_) || begins_with(&json_path_);
+  std::cerr << name_ << ": " << (about_input && !named && input_ ? *input_ + ": " : "") << one_line(message)
+            << "\n";
+  return code;
+}
+
+anisomesh::Progress Command::progress(const std::string& what) {
+  auto bar = std::make_shared<ProgressBar>(!quiet_);
+  return [bar, what](double fraction) {
+    bar->draw(what, fraction);
+    return stop_signal == 0;
+  };
+}
+
+void Command::stop_if_cancelled() const {
+  if (stop_signal != 0) throw anisomesh::Cancelled();
+}
+
+void Command::say(const std::string& line) const {
+  if (!quiet_ && json_path_ != "-") std::cout << line << "\n";
+}
+
+void Command::warn(const std::string& line) const {
+  if (!quiet_) std::cerr << name_ << ": warning: " << line << "\n";
+}
+
+}  // namespace apps

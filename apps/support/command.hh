@@ -1,0 +1,72 @@
+// What all apps share: how they are called, how they report, fail and stop. CLI11 stays inside support/.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "anisomesh/progress.hh"
+
+namespace CLI {
+class App;
+}
+
+namespace apps {
+
+using Json = nlohmann::ordered_json;
+
+/// Exit codes, the same for every app.
+enum Exit {
+  exit_done = 0,
+  exit_internal = 1,
+  exit_usage = 2,
+  exit_bad_input = 3,
+  exit_cannot = 4,
+  exit_cancelled = 130
+};
+
+class Command {
+ public:
+  Command(const std::string& name, const std::string& description);
+  ~Command();
+  Command(const Command&) = delete;
+  Command& operator=(const Command&) = delete;
+
+  /// A required file to read, as a positional argument.
+  void input(std::string& path, const std::string& name, const std::string& help);
+  /// The required -o, --output, a mesh; looked at before the work begins.
+  void output(std::string& path, const std::string& help);
+  /// For the options of a stage, see options.hh.
+  CLI::App& arguments() { return *app_; }
+
+  /// Parses, works, reports; turns exceptions into one line on stderr and an exit code.
+  int run(int argc, char* argv[], const std::function<void()>& work);
+
+  // --- for the work
+  /// The callback for a stage: draws the bar on a terminal and cancels after Ctrl-C.
+  anisomesh::Progress progress(const std::string& what);
+  /// \throw Cancelled after Ctrl-C. Called before anything is written.
+  void stop_if_cancelled() const;
+  /// A line for people: on stdout, unless --quiet or the JSON report goes there.
+  void say(const std::string& line) const;
+  /// A line on stderr, unless --quiet.
+  void warn(const std::string& line) const;
+  /// What --json writes.
+  Json& report() { return *report_; }
+
+ private:
+  int work_and_report(const std::function<void()>& work);
+  int fail(int code, const std::string& message, bool about_input = false) const;
+
+  std::string name_;
+  std::unique_ptr<CLI::App> app_;
+  std::unique_ptr<Json> report_;
+  std::string* input_ = nullptr;  ///< the first one: failures of a stage name it
+  std::string* output_ = nullptr;
+  std::string json_path_;
+  int threads_ = 0;
+  bool quiet_ = false;
+};
+
+}  // namespace apps

@@ -1,0 +1,160 @@
+#include "support/options.hh"
+
+#include <CLI/CLI.hpp>
+#include <map>
+
+namespace apps {
+
+using namespace anisomesh;
+
+namespace {
+
+/// The values of an enumeration by name, shown by name in --help too.
+template <class Enum>
+void add_choice(CLI::App& app, const std::string& name, Enum& value,
+                const std::map<std::string, Enum>& choices, const std::string& help,
+                const std::string& group) {
+  std::string shown, list;
+  for (const auto& [text, choice] : choices) {
+    if (choice == value) shown = text;
+    list += (list.empty() ? "" : ", ") + text;
+  }
+  app.add_option_function<std::string>(
+         name, [&value, choices](const std::string& text) { value = choices.at(text); }, help + ": " + list)
+      ->check([choices, list](const std::string& text) {
+        return choices.count(text) ? std::string() : "'" + text + "' is none of " + list;
+      })
+      ->type_name("NAME")
+      ->default_str(shown)
+      ->group(group);
+}
+
+}  // namespace
+
+void add_feature_options(Command& command, FeatureFlags& flags) {
+  CLI::App& app = command.arguments();
+  app.add_option("--feature-angle", flags.angle_degrees,
+                 "Tag edges whose faces' normals differ by more than this, in degrees; 0: none")
+      ->type_name("DEG")
+      ->group("Features");
+  app.add_option("--feature-file", flags.file,
+                 "Tag the edges of this file: `l` elements of an OBJ, or lines of two vertex numbers, from 0")
+      ->type_name("FILE")
+      ->group("Features");
+  app.add_flag("--drop-features", flags.only_new, "Forget the tags that the input brings along")
+      ->group("Features");
+}
+
+void add_curvature_options(Command& command, CurvatureOptions& options) {
+  CLI::App& app = command.arguments();
+  add_choice<CurvatureEstimator>(app, "--estimator", options.estimator,
+                                 {{"normal-cycle", CurvatureEstimator::normal_cycle},
+                                  {"corrected-normal-current", CurvatureEstimator::corrected_normal_current}},
+                                 "How curvature is measured", "Curvature");
+  app.add_option("--radius", options.radius_fraction,
+                 "Radius of the ball that curvature is measured in, fraction of the bounding box diagonal")
+      ->type_name("R")
+      ->group("Curvature");
+}
+
+void add_smoothing_options(Command& command, SmoothingOptions& options) {
+  CLI::App& app = command.arguments();
+  app.add_option("--smoothing", options.iterations, "Passes of the filter over the curvature tensors")
+      ->type_name("N")
+      ->group("Smoothing");
+  app.add_option("--smoothing-radius", options.radius_fraction,
+                 "Support of the filter, fraction of the bounding box diagonal")
+      ->type_name("R")
+      ->group("Smoothing");
+  app.add_flag("--anisotropic-smoothing", options.anisotropic,
+               "Weigh neighbours also by likeness of their tensors: keeps more detail")
+      ->group("Smoothing");
+}
+
+void add_density_options(Command& command, EpsilonFlags& epsilon, TraceOptions& options) {
+  CLI::App& app = command.arguments();
+  app.add_option("--epsilon", epsilon.epsilon,
+                 "Tolerated distance of an edge from the surface, fraction of the bounding box diagonal")
+      ->type_name("E")
+      ->group("Density");
+  app.add_flag("--absolute", epsilon.absolute, "Take --epsilon in model units")->group("Density");
+  app.add_option("--rho", options.density.rho, "0: anisotropic, 1: isotropic, in [0, 1]")
+      ->type_name("R")
+      ->group("Density");
+  app.add_option("--adaptation", options.density.adaptation,
+                 "0: uniform density, 1: density by curvature, in [0, 1]")
+      ->type_name("A")
+      ->group("Density");
+  app.add_option("--max-spacing", options.density.max_spacing_fraction,
+                 "No spacing above this, fraction of the bounding box diagonal")
+      ->type_name("S")
+      ->group("Density");
+  app.add_option("--stop-fraction", options.stop_fraction,
+                 "A line ends when nearer to another than this fraction of the spacing, in (0, 1)")
+      ->type_name("F")
+      ->group("Density");
+  app.add_option("--seed", options.seed, "Of the random samples that look for gaps")
+      ->type_name("N")
+      ->group("Density");
+}
+
+void add_target_options(Command& command, TargetOptions& options) {
+  CLI::App& app = command.arguments();
+  auto* faces = app.add_option("--target-faces", options.target_faces,
+                               "Find the epsilon that gives about so many faces; 0: --epsilon rules")
+                    ->type_name("N")
+                    ->group("Density");
+  app.add_option("--target-vertices", options.target_vertices, "The same for vertices")
+      ->type_name("N")
+      ->excludes(faces)
+      ->group("Density");
+}
+
+void add_mesh_options(Command& command, MeshOptions& options, const std::string& heading) {
+  CLI::App& app = command.arguments();
+  auto* degree = app.add_option("--max-degree", options.max_degree,
+                                "Split polygons until none has more corners, >= 3; 0: leave them")
+                     ->type_name("D")
+                     ->group(heading);
+  app.add_flag_callback(
+         "--polygons", [&options] { options.max_degree = 0; },
+         "Leave polygons as extracted, as --max-degree 0")
+      ->excludes(degree)
+      ->group(heading);
+  app.add_flag("--convex,!--no-convex", options.convex, "Split polygons until each is convex; on by default")
+      ->group(heading);
+  app.add_flag("--flip-edges,!--no-flip-edges", options.flip_edges,
+               "Flip edges at isotropic samples where it lowers the error; on by default")
+      ->group(heading);
+  app.add_option("--corner-angle", options.corner_angle_degrees,
+                 "A feature or border that turns by more than this has a corner there, in degrees")
+      ->type_name("DEG")
+      ->group(heading);
+}
+
+FeatureOptions resolve(const FeatureFlags& flags, const ReadReport& read) {
+  FeatureOptions options;
+  options.angle_degrees = flags.angle_degrees;
+  options.keep_existing = !flags.only_new;
+  if (flags.file.empty()) return options;
+  options.edges = read_feature_edges(flags.file);
+  if (read.vertex_of.empty()) return options;
+  for (auto& [from, to] : options.edges) {
+    const int pair[2] = {from, to};
+    for (int k = 0; k < 2; ++k) {
+      const size_t v = static_cast<size_t>(pair[k]);
+      const int found = v < read.vertex_of.size() ? read.vertex_of[v] : -1;
+      if (found < 0)
+        throw InvalidInput(flags.file + ": it names vertex " + std::to_string(pair[k]) +
+                           " (counted from 0), which belongs to no face of the mesh");
+      (k == 0 ? from : to) = found;
+    }
+  }
+  return options;
+}
+
+double resolve(const EpsilonFlags& flags, const SurfaceRef& surface) {
+  return flags.absolute ? flags.epsilon / surface.diagonal() : flags.epsilon;
+}
+
+}  // namespace apps

@@ -1,0 +1,38 @@
+// The options of the stages, with the same names in every app that has the stage.
+#pragma once
+
+#include <string>
+
+#include "anisomesh/io.hh"
+#include "anisomesh/remesh.hh"
+#include "support/command.hh"
+
+namespace apps {
+
+/// What the command line says, where the library wants it resolved against the mesh.
+struct FeatureFlags {
+  double angle_degrees = 0;
+  std::string file;
+  bool only_new = false;
+};
+struct EpsilonFlags {
+  double epsilon = 0.001;
+  bool absolute = false;
+};
+
+void add_feature_options(Command& command, FeatureFlags& flags);
+void add_curvature_options(Command& command, anisomesh::CurvatureOptions& options);
+void add_smoothing_options(Command& command, anisomesh::SmoothingOptions& options);
+void add_density_options(Command& command, EpsilonFlags& epsilon, anisomesh::TraceOptions& options);
+void add_target_options(Command& command, anisomesh::TargetOptions& options);
+/// \param heading of the group in --help
+void add_mesh_options(Command& command, anisomesh::MeshOptions& options,
+                      const std::string& heading = "Polygons");
+
+/// Reads --feature-file; its vertices are those of the file, before anything was dropped on reading.
+/// \throw InvalidInput
+anisomesh::FeatureOptions resolve(const FeatureFlags& flags, const anisomesh::ReadReport& read);
+/// The fraction of the diagonal.
+double resolve(const EpsilonFlags& flags, const anisomesh::SurfaceRef& surface);
+
+}  // namespace apps

@@ -1,0 +1,198 @@
+#include "support/reports.hh"
+
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace apps {
+
+using namespace anisomesh;
+
+Json to_json(const ReadReport& r) {
+  return {{"merged_vertices", r.merged_vertices},    {"triangulated_polygons", r.triangulated_polygons},
+          {"degenerate_faces", r.degenerate_faces},  {"duplicate_faces", r.duplicate_faces},
+          {"reoriented_faces", r.reoriented_faces},  {"duplicated_vertices", r.duplicated_vertices},
+          {"isolated_vertices", r.isolated_vertices}};
+}
+
+Json to_json(const FeatureReport& r) {
+  return {{"feature_edges", r.feature_edges},
+          {"by_angle", r.by_angle},
+          {"by_list", r.by_list},
+          {"seconds", r.seconds}};
+}
+
+Json to_json(const CurvatureReport& r) {
+  return {{"radius", r.radius},
+          {"enlarged_balls", r.enlarged_balls},
+          {"degenerate_faces", r.degenerate_faces},
+          {"seconds", r.seconds}};
+}
+
+Json to_json(const FlattenReport& r) {
+  return {{"mean_conformal_distortion", r.mean_conformal_distortion},
+          {"max_conformal_distortion", r.max_conformal_distortion},
+          {"min_area_stretch", r.min_area_stretch},
+          {"max_area_stretch", r.max_area_stretch},
+          {"free_boundary", r.free_boundary},
+          {"repaired_triangles", r.repaired_triangles},
+          {"seconds", r.seconds}};
+}
+
+Json to_json(const SmoothingReport& r) { return {{"mean_change", r.mean_change}, {"seconds", r.seconds}}; }
+
+Json to_json(const UmbilicReport& r) {
+  return {{"wedges", r.wedges},
+          {"trisectors", r.trisectors},
+          {"index_sum", r.index_sum},
+          {"border_turning", r.border_turning},
+          {"seconds", r.seconds}};
+}
+
+Json to_json(const TraceReport& r) {
+  return {{"min_lines", r.min_lines},
+          {"max_lines", r.max_lines},
+          {"closed_lines", r.closed_lines},
+          {"points", r.points},
+          {"coverage_seeds", r.coverage_seeds},
+          {"ends",
+           {{"umbilic", r.ends[0]},
+            {"feature", r.ends[1]},
+            {"border", r.ends[2]},
+            {"loop", r.ends[3]},
+            {"too_close", r.ends[4]},
+            {"step_limit", r.ends[5]}}},
+          {"seconds", r.seconds}};
+}
+
+Json to_json(const IsotropicReport& r) {
+  return {{"from_umbilics", r.from_umbilics}, {"random", r.random}, {"seconds", r.seconds}};
+}
+
+Json to_json(const MeshReport& r) {
+  return {{"vertices", r.vertices},
+          {"faces", r.faces},
+          {"quads", r.quads},
+          {"triangles", r.triangles},
+          {"crossings", r.crossings},
+          {"trimmed", r.trimmed},
+          {"straightened", r.straightened},
+          {"convexity_splits", r.convexity_splits},
+          {"conforming_edges", r.conforming_edges},
+          {"arrangement_seconds", r.arrangement_seconds},
+          {"decimation_seconds", r.decimation_seconds},
+          {"polygon_seconds", r.polygon_seconds},
+          {"seconds", r.seconds}};
+}
+
+void add_json(Json& json, const TraceAndMeshReport& r) {
+  json["epsilon_fraction"] = r.epsilon_fraction;
+  json["attempts"] = r.attempts;
+  json["target_met"] = r.target_met;
+  json["attempts_seconds"] = r.attempts_seconds;
+  json["trace"] = to_json(r.trace);
+  json["isotropic"] = to_json(r.isotropic);
+  json["mesh"] = to_json(r.mesh);
+}
+
+namespace {
+
+Json to_json(const Distances& d) { return {{"mean", d.mean}, {"rms", d.rms}, {"hausdorff", d.hausdorff}}; }
+
+Json to_json(const std::map<int, size_t>& histogram) {
+  Json json = Json::object();
+  for (const auto& [key, count] : histogram) json[std::to_string(key)] = count;
+  return json;
+}
+
+std::map<int, size_t> faces_by_degree(const OpenMesh::PolyMesh& mesh) {
+  std::map<int, size_t> count;
+  for (const auto f : mesh.faces()) ++count[static_cast<int>(mesh.valence(f))];
+  return count;
+}
+
+}  // namespace
+
+Json to_json(const Comparison& c) {
+  return {{"unit_of_distances", "fraction of the bounding box diagonal of the reference"},
+          {"to_reference", to_json(c.to_reference)},
+          {"from_reference", to_json(c.from_reference)},
+          {"two_sided", to_json(c.two_sided)},
+          {"p99", c.p99_fraction},
+          {"mean_normal_deviation_degrees", c.mean_normal_deviation_degrees},
+          {"vertices", c.vertices},
+          {"faces", c.faces},
+          {"edges", c.edges},
+          {"isolated_vertices", c.isolated_vertices},
+          {"faces_by_degree", to_json(c.faces_by_degree)},
+          {"vertices_by_valence", to_json(c.vertices_by_valence)},
+          {"quad_fraction", c.quad_fraction},
+          {"mean_planarity", c.mean_planarity},
+          {"max_planarity", c.max_planarity},
+          {"concave_faces", c.concave_faces},
+          {"folded_faces", c.folded_faces},
+          {"degenerate_faces", c.degenerate_faces},
+          {"non_manifold_edges", c.non_manifold_edges},
+          {"non_manifold_vertices", c.non_manifold_vertices},
+          {"t_junctions", c.t_junctions},
+          {"components", c.components},
+          {"euler_characteristic", c.euler_characteristic},
+          {"border_loops", c.border_loops},
+          {"same_topology", c.same_topology},
+          {"mean_alignment_degrees", c.mean_alignment_degrees},
+          {"aspect_ratio_error", c.aspect_ratio_error},
+          {"comparison_seconds", c.seconds}};
+}
+
+OpenMesh::TriMesh read_surface(Command& command, const std::string& path, ReadReport* report) {
+  ReadReport found;
+  auto mesh = anisomesh::read_surface(path, &found);
+  Json json = to_json(found);
+  json["vertices"] = mesh.n_vertices();
+  json["faces"] = mesh.n_faces();
+  command.report()["read"] = std::move(json);
+  const auto warn = [&](size_t count, const std::string& what) {
+    if (count > 0) command.warn(path + ": " + std::to_string(count) + " " + what);
+  };
+  warn(found.degenerate_faces, "faces with a corner twice were dropped");
+  warn(found.duplicate_faces, "duplicate faces were dropped");
+  warn(found.reoriented_faces, "faces were turned over to agree with the rest");
+  warn(found.duplicated_vertices,
+       "vertices were added where the surface is not manifold; it is cut open there");
+  warn(found.isolated_vertices, "vertices without a face were dropped");
+  if (report) *report = std::move(found);
+  return mesh;
+}
+
+std::string mesh_summary(const OpenMesh::PolyMesh& mesh) {
+  const auto degrees = faces_by_degree(mesh);
+  std::string text =
+      std::to_string(mesh.n_vertices()) + " vertices, " + std::to_string(mesh.n_faces()) + " faces";
+  const char* separator = ": ";
+  for (const auto& [degree, count] : degrees) {
+    const std::string name = degree == 3   ? "triangles"
+                             : degree == 4 ? "quads"
+                                           : "of " + std::to_string(degree) + " corners";
+    char share[32];
+    std::snprintf(share, sizeof share, " (%.0f %%)",
+                  100.0 * static_cast<double>(count) / static_cast<double>(mesh.n_faces()));
+    text += separator + std::to_string(count) + " " + name + share;
+    separator = ", ";
+  }
+  return text;
+}
+
+Json mesh_json(const OpenMesh::PolyMesh& mesh) {
+  return {{"vertices", mesh.n_vertices()},
+          {"edges", mesh.n_edges()},
+          {"faces", mesh.n_faces()},
+          {"faces_by_degree", to_json(faces_by_degree(mesh))}};
+}
+
+std::string seconds(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f s", value);
+  return text;
+}
+
+}  // namespace apps

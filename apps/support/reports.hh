@@ -1,0 +1,36 @@
+// Reports as JSON and as lines for people.
+#pragma once
+
+#include <string>
+
+#include "anisomesh/compare.hh"
+#include "anisomesh/io.hh"
+#include "anisomesh/remesh.hh"
+#include "support/command.hh"
+
+namespace apps {
+
+Json to_json(const anisomesh::ReadReport& report);
+Json to_json(const anisomesh::FeatureReport& report);
+Json to_json(const anisomesh::CurvatureReport& report);
+Json to_json(const anisomesh::FlattenReport& report);
+Json to_json(const anisomesh::SmoothingReport& report);
+Json to_json(const anisomesh::UmbilicReport& report);
+Json to_json(const anisomesh::TraceReport& report);
+Json to_json(const anisomesh::IsotropicReport& report);
+Json to_json(const anisomesh::MeshReport& report);
+Json to_json(const anisomesh::Comparison& comparison);
+/// epsilon, attempts, and the reports of the last three stages, into `json`.
+void add_json(Json& json, const anisomesh::TraceAndMeshReport& report);
+
+/// Reads a surface for an app: reports what reading did, and warns where the file was not sound.
+OpenMesh::TriMesh read_surface(Command& command, const std::string& path,
+                               anisomesh::ReadReport* report = nullptr);
+
+/// "2013 vertices, 2001 faces: 1820 quads (91 %), 150 triangles, 31 others"
+std::string mesh_summary(const OpenMesh::PolyMesh& mesh);
+/// Faces and vertices of the result into the report.
+Json mesh_json(const OpenMesh::PolyMesh& mesh);
+std::string seconds(double value);
+
+}  // namespace apps

@@ -1,0 +1,176 @@
+// Epsilon from a number of faces: a guess from the density, then a search in count over epsilon.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "anisomesh/properties.hh"
+#include "anisomesh/remesh.hh"
+#include "numerics/tensor2d.hh"
+
+namespace anisomesh {
+
+namespace {
+
+constexpr double kMet = 0.1;                      ///< a count within this fraction of the target meets it
+constexpr double kLowest = 1e-8, kHighest = 0.5;  ///< epsilon, fraction of the diagonal
+
+/// The number of crossings that the density asks for: one for each rectangle of the two spacings.
+class CrossingModel {
+ public:
+  CrossingModel(const SurfaceRef& surface, const DensityOptions& options)
+      : options_(options), diagonal_(surface.diagonal()) {
+    const auto& mesh = surface.connectivity();
+    const auto tensor = require_property(mesh, property::tensor2d);
+    patches_.resize(mesh.n_vertices());
+    for (const auto v : mesh.vertices()) {
+      auto& patch = patches_[static_cast<size_t>(v.idx())];
+      detail::eigenvalues(mesh.property(tensor, v), patch.k_min, patch.k_max);
+    }
+    double total = 0, bent = 0;
+    for (const auto f : mesh.faces()) {
+      const auto corners = surface.corners(f);
+      const Vec3d &a = surface.point(corners.vertex[0]), &b = surface.point(corners.vertex[1]),
+                  &c = surface.point(corners.vertex[2]);
+      const double third = ((b - a) % (c - a)).norm() / 6;
+      for (const auto v : corners.vertex) {
+        auto& patch = patches_[static_cast<size_t>(v.idx())];
+        patch.area += third;
+        total += third;
+        bent += third * std::max(std::abs(patch.k_min), std::abs(patch.k_max));
+      }
+    }
+    mean_curvature_ = total > 0 ? bent / total : 0;
+  }
+
+  double count(double epsilon_fraction) const {
+    DensityOptions options = options_;
+    options.epsilon_fraction = epsilon_fraction;
+    const Density density(options, diagonal_, mean_curvature_);
+    double sum = 0;
+    for (const Patch& patch : patches_)
+      sum += patch.area / (density.min_line_spacing(patch.k_min, patch.k_max) *
+                           density.max_line_spacing(patch.k_min, patch.k_max));
+    return sum;
+  }
+
+  /// The epsilon that gives this count; the count falls as epsilon grows.
+  double epsilon(double wanted) const {
+    double low = std::log(kLowest), high = std::log(kHighest);
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (low + high);
+      (count(std::exp(middle)) > wanted ? low : high) = middle;
+    }
+    return std::exp(0.5 * (low + high));
+  }
+
+ private:
+  struct Patch {
+    double area = 0, k_min = 0, k_max = 0;
+  };
+  DensityOptions options_;
+  double diagonal_;
+  double mean_curvature_ = 0;
+  std::vector<Patch> patches_;
+};
+
+struct Attempt {
+  double log_epsilon = 0;
+  double log_ratio = 0;  ///< log of count over target
+  double off() const { return std::abs(std::exp(log_ratio) - 1); }
+};
+
+/// Where to look next: the model scaled to the nearest attempt, or the secant through the two that enclose
+/// the target, kept inside what is known.
+double next_epsilon(const std::vector<Attempt>& attempts, const CrossingModel& model) {
+  const auto nearest = *std::min_element(attempts.begin(), attempts.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.log_ratio) < std::abs(b.log_ratio);
+  });
+  const Attempt *above = nullptr, *below = nullptr;  // the tightest attempts with too many and too few
+  for (const Attempt& a : attempts) {
+    if (a.log_ratio > 0 && (!above || a.log_epsilon > above->log_epsilon)) above = &a;
+    if (a.log_ratio <= 0 && (!below || a.log_epsilon < below->log_epsilon)) below = &a;
+  }
+  if (above && below && above->log_epsilon < below->log_epsilon) {
+    const double t = std::clamp(above->log_ratio / (above->log_ratio - below->log_ratio), 0.1, 0.9);
+    return std::exp(above->log_epsilon + t * (below->log_epsilon - above->log_epsilon));
+  }
+  const double count_there = model.count(std::exp(nearest.log_epsilon));
+  // Past the first attempts the model has shown to be wrong in the slope too: step further each time.
+  const double push = 1 + 0.25 * static_cast<double>(attempts.size() - 1);
+  return model.epsilon(count_there * std::exp(-push * nearest.log_ratio));
+}
+
+}  // namespace
+
+void TargetOptions::validate() const {
+  if (target_faces > 0 && target_vertices > 0)
+    throw InvalidOption("target_faces and target_vertices exclude each other: give one");
+  if (!(tolerance > 0 && tolerance < 1))
+    throw InvalidOption("tolerance must be above 0 and below 1, but is " + std::to_string(tolerance));
+  if (max_attempts < 1)
+    throw InvalidOption("max_attempts must be at least 1, but is " + std::to_string(max_attempts));
+}
+
+OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions& trace,
+                                  const MeshOptions& mesh, const TargetOptions& target,
+                                  TraceAndMeshReport* report, const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  target.validate();
+  trace.validate();
+  mesh.validate();
+
+  TraceOptions options = trace;
+  TraceAndMeshReport done;
+  const auto run = [&](double from, double to) {
+    const double span = to - from;
+    done.trace = trace_lines(surface, options, sub_progress(progress, from, from + 0.5 * span));
+    done.isotropic = place_isotropic_samples(surface, options,
+                                             sub_progress(progress, from + 0.5 * span, from + 0.6 * span));
+    done.epsilon_fraction = options.density.epsilon_fraction;
+    return build_polygons(surface, mesh, &done.mesh, sub_progress(progress, from + 0.6 * span, to));
+  };
+  const auto finish = [&](OpenMesh::PolyMesh&& result) {
+    done.attempts_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (report) *report = done;
+    return std::move(result);
+  };
+  const double wanted = static_cast<double>(std::max(target.target_faces, target.target_vertices));
+  if (wanted == 0) return finish(run(0, 1));
+
+  const CrossingModel model(surface, trace.density);
+  options.density.epsilon_fraction = model.epsilon(wanted);
+  std::vector<Attempt> attempts;
+  OpenMesh::PolyMesh best;
+  TraceAndMeshReport of_best;
+  LineNetwork lines_of_best;
+  double best_off = 0;
+  for (int i = 1;; ++i) {
+    OpenMesh::PolyMesh result = run(1 - std::pow(0.6, i - 1), 1 - std::pow(0.6, i));
+    const double count =
+        static_cast<double>(target.target_faces > 0 ? result.n_faces() : result.n_vertices());
+    attempts.push_back({std::log(options.density.epsilon_fraction), std::log(std::max(count, 0.5) / wanted)});
+    const double off = attempts.back().off();
+    done.attempts = i;
+    done.target_met = off <= kMet;
+    if (off <= target.tolerance || (i >= 3 && off <= kMet)) return finish(std::move(result));
+    if (i == 1 || off < best_off) {
+      best = std::move(result);
+      best_off = off;
+      of_best = done;
+      lines_of_best = read_lines(surface);
+    }
+    const double next = next_epsilon(attempts, model);
+    const bool stuck = std::abs(std::log(next) - attempts.back().log_epsilon) < 1e-3;
+    if (i >= target.max_attempts || stuck || (i >= 3 && best_off <= kMet)) break;
+    options.density.epsilon_fraction = next;
+  }
+  of_best.attempts = done.attempts;
+  done = of_best;
+  write_lines(surface, lines_of_best);
+  const auto epsilon = provide_property(surface.connectivity(), property::epsilon);
+  surface.connectivity().property(epsilon) = done.epsilon_fraction * surface.diagonal();
+  return finish(std::move(best));
+}
+
+}  // namespace anisomesh
