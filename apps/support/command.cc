@@ -45,19 +45,8 @@ Command::Command(const std::string& name, const std::string& description)
     : name_(name),
       app_(std::make_unique<CLI::App>(description, name)),
       report_(std::make_unique<Json>(Json::object())) {
-  app_->set_version_flag("--version", name + " " + ANISOMESH_VERSION);
   app_->get_formatter()->column_width(34);
   app_->option_defaults()->always_capture_default();
-  app_->add_option("--json", json_path_, "Write the report as JSON to this file; - is the standard output")
-      ->type_name("FILE")
-      ->group("General");
-  app_->add_option("--threads", threads_, "Threads to use; 0: one for each processor; the result is the same")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("N")
-      ->group("General");
-  app_->add_flag("-q,--quiet", quiet_, "No progress, summary or warnings")->group("General");
-  app_->get_help_ptr()->group("General");
-  app_->get_version_ptr()->group("General");
   app_->footer(
       "Exit codes: 0 done, 2 usage, 3 bad input or a place that cannot be written, 4 the input cannot be "
       "processed, "
@@ -72,11 +61,32 @@ void Command::input(std::string& path, const std::string& name, const std::strin
 }
 
 void Command::output(std::string& path, const std::string& help) {
-  app_->add_option("-o,--output", path, help)->required()->type_name("FILE");
+  app_->add_option("-o,--output", path, help)->required()->type_name("FILE")->group("Output");
+  output_ = &path;
+}
+
+/// Last, so that --help lists them last.
+void Command::add_general_options() {
+  constexpr const char* group = "General";
+  app_->add_option("--json", json_path_, "Write the report as JSON to this file; - is the standard output")
+      ->type_name("FILE")
+      ->group(group);
+  app_->add_option("--threads", threads_, "Threads to use; 0: one for each processor; the result is the same")
+      ->type_name("N")
+      ->group(group);
+  app_->add_flag("-q,--quiet", quiet_, "No progress, summary or warnings")->group(group);
+  app_->set_help_flag("-h,--help", "Print this help and exit")->group(group);
+  app_->set_version_flag("--version", name_ + " " + ANISOMESH_VERSION, "Print the version and exit")
+      ->group(group);
+}
+
+void Command::optional_output(std::string& path, const std::string& help) {
+  app_->add_option("-o,--output", path, help)->type_name("FILE")->group("Output");
   output_ = &path;
 }
 
 int Command::run(int argc, char* argv[], const std::function<void()>& work) {
+  add_general_options();
   try {
     app_->parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -100,8 +110,9 @@ int Command::work_and_report(const std::function<void()>& work) {
   if (threads_ > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads_));
   try {
+    if (threads_ < 0) throw InvalidOption("--threads must be at least 0, but is " + std::to_string(threads_));
     // What cannot end well does not begin.
-    if (output_) require_writable_mesh(*output_);
+    if (output_ && !output_->empty()) require_writable_mesh(*output_);
     if (!json_path_.empty() && json_path_ != "-") require_writable(json_path_);
     work();
     if (!json_path_.empty()) {

@@ -37,6 +37,8 @@ class Command {
   void input(std::string& path, const std::string& name, const std::string& help);
   /// The required -o, --output, a mesh; looked at before the work begins.
   void output(std::string& path, const std::string& help);
+  /// A -o, --output that may be left out.
+  void optional_output(std::string& path, const std::string& help);
   /// For the options of a stage, see options.hh.
   CLI::App& arguments() { return *app_; }
 
@@ -56,6 +58,7 @@ class Command {
   Json& report() { return *report_; }
 
  private:
+  void add_general_options();
   int work_and_report(const std::function<void()>& work);
   int fail(int code, const std::string& message, bool about_input = false) const;
 
