@@ -13,10 +13,10 @@ namespace {
 constexpr double degenerate_height = 1e-10;
 
 /// Passes of correct_walls(): a wall vertex leans on its neighbours along the wall, which are corrected too.
-constexpr int wall_passes = 4;
+constexpr int wall_passes = 8;
 
 /// Weight of staying where the faces alone put a normal, against one equation a neighbour.
-constexpr double wall_damping = 0.02;
+constexpr double wall_damping = 0.001;
 
 }  // namespace
 

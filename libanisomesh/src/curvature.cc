@@ -51,6 +51,9 @@ double ring_factor(CurvatureEstimator estimator) {
   return estimator == CurvatureEstimator::normal_cycle ? 2 : 1.5;
 }
 
+/// At a wall half the ball is missing: this much larger it holds about as much surface as elsewhere.
+constexpr double wall_factor = 1.4;
+
 /// A centre covers vertices within this fraction of the ball's radius, ...
 constexpr double cover_fraction = 0.4;
 /// ... and gives its value to vertices within this one, which is larger so that several centres mix.
@@ -84,6 +87,7 @@ class Estimation {
       const auto i = static_cast<size_t>(v);
       enlarged_balls_ += ring > base_radius_;
       radii_[i] = std::max(base_radius_, ring);
+      if (arrays_.at_wall[i]) radii_[i] *= wall_factor;
       // Where the ball had to be enlarged, faces are large already: leave hardly any vertex out.
       reach[i] = cover_fraction * base_radius_ * (base_radius_ / radii_[i]);
     }
