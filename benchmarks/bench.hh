@@ -3,24 +3,14 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <optional>
 #include <string>
 
 #include "anisomesh/compare.hh"
 #include "anisomesh/curvature.hh"
 #include "anisomesh/io.hh"
+#include "data.hh"  // demo_mesh()
 
 namespace bench {
-
-/// The file of libcgal-demo, unpacked: in the folder the environment variable ANISOMESH_DATA names.
-inline std::optional<std::string> demo_mesh(const std::string& name) {
-  const char* folder = std::getenv("ANISOMESH_DATA");
-  if (!folder) return std::nullopt;
-  const auto path = std::filesystem::path(folder) / name;
-  if (!std::filesystem::exists(path)) return std::nullopt;
-  return path.string();
-}
 
 /// A copy of the mesh for the ruler alone: curvature by the default options, whatever the run that is judged
 /// has used or smoothed.
@@ -38,15 +28,17 @@ struct Ruler {
 /// Counts what was promised and not kept; the exit code of a benchmark.
 class Bars {
  public:
-  /// Prints one line; `kept` or not is decided by the caller.
-  void check(bool kept, const std::string& what) {
-    std::printf("- %s: %s\n", kept ? "kept" : "MISSED", what.c_str());
+  /// Prints one line if it was not kept, or always if `kept_too`.
+  void check(bool kept, const std::string& what, bool kept_too = true) {
+    ++checked_;
     if (!kept) ++missed_;
+    if (kept_too || !kept) std::printf("- %s: %s\n", kept ? "kept" : "MISSED", what.c_str());
   }
   int missed() const { return missed_; }
+  int checked() const { return checked_; }
 
  private:
-  int missed_ = 0;
+  int missed_ = 0, checked_ = 0;
 };
 
 inline std::string format(const char* pattern, double value) {

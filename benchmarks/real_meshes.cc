@@ -2,10 +2,10 @@
 //
 //   ANISOMESH_DATA=FOLDER real_meshes [--only NAME] [--keep FOLDER]
 //
-// Prints a markdown table and one line a bar; exits 1 if a bar is missed, 77 if the meshes are not there.
-// Errors are two-sided RMS in % of the diagonal. The number of vertices is met within 10 % only, and error
-// goes as 1 / vertices: where the result has more vertices than the bar allows, its error is scaled up to the
-// bar's number before it is judged.
+// Prints a markdown table and one line for each bar that is missed; exits 1 if a bar is missed, 77 if the
+// meshes are not there. Errors are two-sided RMS in % of the diagonal. The number of vertices is met within
+// 10 % only, and error goes as 1 / vertices: where the result has more vertices than the bar allows, its
+// error is scaled up to the bar's number before it is judged.
 #include <algorithm>
 #include <cstring>
 #include <exception>
@@ -149,7 +149,7 @@ int main(int argc, char** argv) {
   print_head();
   for (const Run& run : runs) {
     if (!only.empty() && only != run.mesh) continue;
-    const auto path = bench::demo_mesh(std::string(run.mesh) + ".off");
+    const auto path = demo_mesh(std::string(run.mesh) + ".off");
     if (!path) {
       std::printf("SKIPPED: %s.off is not in the folder ANISOMESH_DATA names\n", run.mesh);
       return 77;
@@ -162,7 +162,7 @@ int main(int argc, char** argv) {
   }
   std::printf("\n");
   bench::Bars bars;
-  for (const Judgement& judgement : judgements) bars.check(judgement.kept, judgement.what);
-  std::printf("\n%d of %zu bars missed\n", bars.missed(), judgements.size());
+  for (const Judgement& judgement : judgements) bars.check(judgement.kept, judgement.what, false);
+  std::printf("\n%d of %d bars missed\n", bars.missed(), bars.checked());
   return bars.missed() > 0 ? 1 : 0;
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "anisomesh/remesh.hh"
 #include "anisomesh/shapes.hh"
@@ -39,20 +40,30 @@ struct Grid {
   double rms = 1;  // scaled to the wanted number of vertices
 };
 
+double scaled_rms(OpenMesh::TriMesh& reference, const Grid& grid, int vertices, size_t samples) {
+  CompareOptions options;
+  options.samples = samples;
+  auto mesh = torus_grid(grid.arcs, grid.circles);
+  return compare(reference, mesh, options).two_sided.rms * grid.arcs * grid.circles / vertices;
+}
+
+/// Every aspect roughly, then the five best with all samples.
 Grid best_grid(OpenMesh::TriMesh& reference, int vertices) {
-  CompareOptions coarse;
-  coarse.samples = 20000;
-  Grid best;
+  ShapeOptions coarse;
+  coarse.vertices = 10000;
+  auto rough = make_shape("half-torus", coarse);
+  std::vector<Grid> grids;
   for (int arcs = 3; arcs <= vertices / 3; ++arcs)
     for (int circles = std::max(3, static_cast<int>(std::ceil(0.96 * vertices / arcs)));
          circles <= 1.04 * vertices / arcs; ++circles) {
-      auto grid = torus_grid(arcs, circles);
-      const double rms = compare(reference, grid, coarse).two_sided.rms * arcs * circles / vertices;
-      if (rms < best.rms) best = {arcs, circles, rms};
+      grids.push_back({arcs, circles, 0});
+      grids.back().rms = scaled_rms(rough, grids.back(), vertices, 5000);
     }
-  auto grid = torus_grid(best.arcs, best.circles);
-  best.rms = compare(reference, grid).two_sided.rms * best.arcs * best.circles / vertices;
-  return best;
+  const auto better = [](const Grid& a, const Grid& b) { return a.rms < b.rms; };
+  std::sort(grids.begin(), grids.end(), better);
+  grids.resize(std::min<size_t>(grids.size(), 5));
+  for (Grid& grid : grids) grid.rms = scaled_rms(reference, grid, vertices, 200000);
+  return *std::min_element(grids.begin(), grids.end(), better);
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
     if (std::strcmp(argv[i], "--faces") == 0) faces = argv[i + 1];
     if (std::strcmp(argv[i], "--runs") == 0) runs = std::max(1, std::stoi(argv[i + 1]));
   }
-  const auto input = bench::demo_mesh("mannequin-devil.off");
+  const auto input = demo_mesh("mannequin-devil.off");
   if (!input) {
     std::printf("SKIPPED: mannequin-devil.off is not in the folder ANISOMESH_DATA names\n");
     return 77;
