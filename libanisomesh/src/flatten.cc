@@ -43,10 +43,15 @@ std::vector<Vec2d> valid_map(const Patch& patch, FlattenReport& report, const Pr
       "; cut long features off, or the patch into shorter ones");
 }
 
-TriangleJacobian jacobian(const Patch& patch, const std::vector<Vec2d>& map, size_t t) {
-  const auto corner = [&](size_t i) { return static_cast<size_t>(patch.triangles[t][i]); };
-  return triangle_jacobian(patch.points[corner(0)], patch.points[corner(1)], patch.points[corner(2)],
-                           map[corner(0)], map[corner(1)], map[corner(2)]);
+std::vector<TriangleJacobian> jacobians(const Patch& patch, const std::vector<Vec2d>& map) {
+  std::vector<TriangleJacobian> result;
+  result.reserve(patch.triangles.size());
+  for (const auto& t : patch.triangles) {
+    const auto a = static_cast<size_t>(t[0]), b = static_cast<size_t>(t[1]), c = static_cast<size_t>(t[2]);
+    result.push_back(
+        triangle_jacobian(patch.points[a], patch.points[b], patch.points[c], map[a], map[b], map[c]));
+  }
+  return result;
 }
 
 /// Moments of the border, weighed by length: their principal axis becomes the u axis.
@@ -105,16 +110,17 @@ void normalize(const Patch& patch, std::vector<Vec2d>& map) {
   }
 }
 
-std::vector<double> area_stretches(const Patch& patch, const std::vector<Vec2d>& map) {
-  std::vector<double> plane(map.size(), 0.0), surface(map.size(), 0.0);
-  for (size_t t = 0; t < patch.triangles.size(); ++t) {
-    const double in_plane = signed_area(patch, map, t), on_surface = jacobian(patch, map, t).area;
+std::vector<double> area_stretches(const Patch& patch, const std::vector<TriangleJacobian>& faces) {
+  std::vector<double> plane(patch.points.size(), 0.0), surface(patch.points.size(), 0.0);
+  for (size_t t = 0; t < faces.size(); ++t) {
+    const double in_plane =
+        faces[t].area * (std::norm(faces[t].conformal) - std::norm(faces[t].anticonformal));
     for (const int v : patch.triangles[t]) {
       plane[static_cast<size_t>(v)] += in_plane;
-      surface[static_cast<size_t>(v)] += on_surface;
+      surface[static_cast<size_t>(v)] += faces[t].area;
     }
   }
-  for (size_t v = 0; v < map.size(); ++v)  // a star without area on the surface: the mean of the whole map
+  for (size_t v = 0; v < plane.size(); ++v)  // a star without area on the surface: the mean of the whole map
     plane[v] = surface[v] > 0 ? plane[v] / surface[v] : 1;
   return plane;
 }
@@ -133,11 +139,12 @@ TangentFrame tangent_frame(const Vec3d& normal) {
 /// The rotation from the tangent frame of each vertex to the (u, v) frame: the mean over the faces around it
 /// of "unfold the tangent plane onto the face, then turn as the face's map turns". The paper takes one 1-ring
 /// edge instead; the mean measures better, see docs/flatten.md.
-std::vector<std::complex<double>> rotations_to_plane(const Patch& patch, const std::vector<Vec2d>& map,
+std::vector<std::complex<double>> rotations_to_plane(const Patch& patch,
+                                                     const std::vector<TriangleJacobian>& faces,
                                                      const std::vector<TangentFrame>& frames) {
-  std::vector<std::complex<double>> rotation(map.size(), 0.0);
-  for (size_t t = 0; t < patch.triangles.size(); ++t) {
-    const auto j = jacobian(patch, map, t);
+  std::vector<std::complex<double>> rotation(frames.size(), 0.0);
+  for (size_t t = 0; t < faces.size(); ++t) {
+    const auto& j = faces[t];
     const double length = std::abs(j.conformal);
     if (!(length > 0)) continue;
     const std::complex<double> turn = j.area * j.conformal / length;
@@ -153,15 +160,15 @@ std::vector<std::complex<double>> rotations_to_plane(const Patch& patch, const s
 }
 
 std::vector<Vec3d> tensors_in_plane(const SurfaceRef& surface, const Patch& patch,
-                                    const std::vector<Vec2d>& map) {
+                                    const std::vector<TriangleJacobian>& faces) {
   auto& mesh = surface.connectivity();
   const auto normal = require_property(mesh, property::normal);
   const auto tensor = require_property(mesh, property::tensor);
-  std::vector<TangentFrame> frames(map.size());
+  std::vector<TangentFrame> frames(mesh.n_vertices());
   for (const auto v : mesh.all_vertices())
     frames[static_cast<size_t>(v.idx())] = tangent_frame(mesh.property(normal, v));
-  const auto rotation = rotations_to_plane(patch, map, frames);
-  std::vector<Vec3d> result(map.size());
+  const auto rotation = rotations_to_plane(patch, faces, frames);
+  std::vector<Vec3d> result(frames.size());
   for (const auto v : mesh.all_vertices()) {
     const auto i = static_cast<size_t>(v.idx());
     const auto& t = mesh.property(tensor, v);
@@ -176,11 +183,10 @@ std::vector<Vec3d> tensors_in_plane(const SurfaceRef& surface, const Patch& patc
   return result;
 }
 
-void measure(const Patch& patch, const std::vector<Vec2d>& map, const std::vector<double>& stretch,
+void measure(const std::vector<TriangleJacobian>& faces, const std::vector<double>& stretch,
              FlattenReport& report) {
   double sum = 0, area = 0;
-  for (size_t t = 0; t < patch.triangles.size(); ++t) {
-    const auto j = jacobian(patch, map, t);
+  for (const auto& j : faces) {
     if (!(j.area > 0)) continue;
     const double conformal = std::abs(j.conformal), rest = std::abs(j.anticonformal);
     const double ratio = (conformal + rest) / (conformal - rest);
@@ -219,9 +225,10 @@ FlattenReport flatten(const SurfaceRef& surface, const Progress& progress) {
   const Patch patch = patch_of(surface);
   auto map = valid_map(patch, report, progress);
   normalize(patch, map);
-  const auto stretch = area_stretches(patch, map);
-  const auto tensors = tensors_in_plane(surface, patch, map);
-  measure(patch, map, stretch, report);
+  const auto faces = jacobians(patch, map);
+  const auto stretch = area_stretches(patch, faces);
+  const auto tensors = tensors_in_plane(surface, patch, faces);
+  measure(faces, stretch, report);
   report_progress(progress, 1);
 
   const auto uv = provide_property(mesh, property::uv);

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "anisomesh/errors.hh"
@@ -37,7 +38,7 @@ struct Samples {
 struct Groups {
   std::vector<int> group_of;  ///< of each sample
   std::vector<Vec2d> place;
-  std::vector<double> area;
+  std::vector<double> radius, area;
   NodeNeighbours neighbours;
   size_t size() const { return area.size(); }
 };
@@ -115,6 +116,7 @@ Groups group_samples(const Samples& samples) {
       area += samples.area[static_cast<size_t>(s)];
     }
     groups.place.push_back(area > 0 ? place / area : samples.place[static_cast<size_t>(group.front())]);
+    groups.radius.push_back(samples.radius[static_cast<size_t>(group.front())]);
     groups.area.push_back(area);
   }
   groups.neighbours = group_neighbours(samples, groups.group_of, members);
@@ -167,31 +169,55 @@ class Flood {
   std::vector<int> seen_, queue_;
 };
 
-/// One pass of the filter over all samples.
-std::vector<Vec3d> filter(const Samples& samples, const Groups& groups, const std::vector<Vec3d>& values,
+/// Where the filter is to be evaluated.
+struct Targets {
+  const std::vector<Vec2d>& place;
+  const std::vector<double>& radius;
+  const std::vector<int>& group;  ///< the group each one lies in
+};
+
+/// The weighted mean of the groups in the support of each target. Range weights compare with the target's own
+/// group.
+std::vector<Vec3d> filter(const Groups& groups, const std::vector<Vec3d>& means, const Targets& targets,
                           bool anisotropic) {
-  const auto means = group_means(samples, groups, values);
-  std::vector<Vec3d> result(values.size());
+  std::vector<Vec3d> result(targets.place.size());
   tbb::enumerable_thread_specific<Flood> floods([&] { return Flood(groups.size()); });
-  const double edge_value = std::exp(-2.0);
+  const double at_edge = std::exp(-2.0);
   tbb::parallel_for(
-      tbb::blocked_range<size_t>(0, values.size()), [&](const tbb::blocked_range<size_t>& range) {
+      tbb::blocked_range<size_t>(0, result.size()), [&](const tbb::blocked_range<size_t>& range) {
         Flood& flood = floods.local();
-        for (size_t s = range.begin(); s < range.end(); ++s) {
+        for (size_t i = range.begin(); i < range.end(); ++i) {
+          const int own = targets.group[i];
           Vec3d sum(0, 0, 0);
           double weights = 0;
-          flood.run(groups, static_cast<int>(s), groups.group_of[s], samples.place[s], samples.radius[s],
+          flood.run(groups, static_cast<int>(i), own, targets.place[i], targets.radius[i],
                     [&](size_t g, double q) {
                       // A Gaussian whose standard deviation is half the radius, lowered to end at 0.
-                      double weight = groups.area[g] * std::max(std::exp(-2 * q) - edge_value, 0.0);
-                      if (anisotropic) weight *= likeness(values[s], means[g]);
+                      double weight = groups.area[g] * std::max(std::exp(-2 * q) - at_edge, 0.0);
+                      if (anisotropic) weight *= likeness(means[static_cast<size_t>(own)], means[g]);
                       sum += weight * means[g];
                       weights += weight;
                     });
-          result[s] = weights > 0 ? sum / weights : values[s];
+          result[i] = weights > 0 ? sum / weights : means[static_cast<size_t>(own)];
         }
       });
   return result;
+}
+
+/// All passes: over the groups, the last one over the samples. A group is much smaller than the support, so
+/// that its mean stands for its samples between two passes.
+std::vector<Vec3d> filter_repeatedly(const Samples& samples, std::vector<Vec3d> values, int iterations,
+                                     bool anisotropic, const Progress& progress) {
+  if (iterations == 0) return values;
+  const auto groups = group_samples(samples);
+  auto means = group_means(samples, groups, values);
+  std::vector<int> identity(groups.size());
+  std::iota(identity.begin(), identity.end(), 0);
+  for (int i = 1; i < iterations; ++i) {
+    report_progress(progress, static_cast<double>(i) / (iterations + 1));
+    means = filter(groups, means, {groups.place, groups.radius, identity}, anisotropic);
+  }
+  return filter(groups, means, {samples.place, samples.radius, groups.group_of}, anisotropic);
 }
 
 std::vector<Vec3d> read_tensors(const OpenMesh::TriConnectivity& mesh) {
@@ -239,13 +265,11 @@ SmoothingReport smooth_tensors(const SurfaceRef& surface, const SmoothingOptions
   auto& mesh = surface.connectivity();
   const auto before = read_tensors(mesh);
   const auto samples = take_samples(surface, options.radius_fraction * surface.diagonal());
-  const auto groups = group_samples(samples);
-  auto values = before;
-  for (int i = 0; i < options.iterations; ++i) {
-    report_progress(progress, static_cast<double>(i) / options.iterations);
-    const auto one_sided = one_sided_values(samples.cut, samples.neighbours, values);
-    values = vertex_values(samples, filter(samples, groups, one_sided, options.anisotropic), values.size());
-  }
+  report_progress(progress, 0);
+  const auto one_sided = one_sided_values(samples.cut, samples.neighbours, before);
+  const auto filtered =
+      filter_repeatedly(samples, one_sided, options.iterations, options.anisotropic, progress);
+  const auto values = options.iterations > 0 ? vertex_values(samples, filtered, before.size()) : before;
   report_progress(progress, 1);
 
   SmoothingReport report;
