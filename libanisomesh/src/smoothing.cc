@@ -21,8 +21,8 @@ namespace {
 using namespace detail;
 
 /// Samples of a group are this near to its first one, in radii of the support: near enough for the Gaussian
-/// to be flat over the group, wide enough that a support never holds more than about 100 groups.
-constexpr double group_radius = 0.18;
+/// to be flat over the group, wide enough that a support never holds more than about 50 groups.
+constexpr double group_radius = 0.25;
 
 /// The field to be filtered: one sample a node of the cut surface.
 struct Samples {
