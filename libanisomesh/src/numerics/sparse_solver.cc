@@ -6,10 +6,11 @@
 #else
 #include <Eigen/SparseCholesky>
 #endif
-#include <cmath>
+#include <algorithm>
 #include <string>
 
 #include "anisomesh/errors.hh"
+#include "numerics/dissection.hh"
 
 namespace anisomesh::detail {
 
@@ -17,31 +18,43 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-Matrix assemble(const SymmetricEntries& entries) {
+Matrix assemble(const SymmetricEntries& entries, const std::vector<int>& position) {
   std::vector<Eigen::Triplet<double>> triplets;
   triplets.reserve(entries.value.size());
-  for (size_t k = 0; k < entries.value.size(); ++k)
-    triplets.emplace_back(entries.row[k], entries.column[k], entries.value[k]);
+  for (size_t k = 0; k < entries.value.size(); ++k) {
+    const int i = position[static_cast<size_t>(entries.row[k])],
+              j = position[static_cast<size_t>(entries.column[k])];
+    triplets.emplace_back(std::max(i, j), std::min(i, j), entries.value[k]);
+  }
   const auto n = static_cast<Eigen::Index>(entries.size);
   Matrix matrix(n, n);
   matrix.setFromTriplets(triplets.begin(), triplets.end());
   return matrix;
 }
 
+std::vector<int> elimination_positions(const SymmetricEntries& entries) {
+  std::vector<std::pair<int, int>> adjacent;
+  for (size_t k = 0; k < entries.value.size(); ++k)
+    if (entries.row[k] != entries.column[k]) adjacent.emplace_back(entries.row[k], entries.column[k]);
+  const auto order = nested_dissection(entries.size, adjacent);
+  std::vector<int> position(order.size());
+  for (size_t i = 0; i < order.size(); ++i) position[static_cast<size_t>(order[i])] = static_cast<int>(i);
+  return position;
+}
+
 #ifdef ANISOMESH_WITH_CHOLMOD
-// CHOLMOD's own choice of method takes the simplicial one for small systems and the supernodal one, which is
-// several times faster, for large ones.
+// CHOLMOD itself takes the simplicial method for small systems and the supernodal one, which is several times
+// faster, for large ones.
 using Backend = Eigen::CholmodDecomposition<Matrix, Eigen::Lower>;
-void configure(Backend& backend, size_t size) {
+void configure(Backend& backend) {
   auto& common = backend.cholmod();
   common.print = 0;
   common.nmethods = 1;
-  // Nested dissection fills less and so grows slower than minimum degree, but takes longer to find.
-  common.method[0].ordering = size > 20000 ? CHOLMOD_METIS : CHOLMOD_AMD;
+  common.method[0].ordering = CHOLMOD_NATURAL;
 }
 #else
-using Backend = Eigen::SimplicialLLT<Matrix, Eigen::Lower>;
-void configure(Backend&, size_t) {}
+using Backend = Eigen::SimplicialLLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
+void configure(Backend&) {}
 #endif
 
 }  // namespace
@@ -50,9 +63,10 @@ struct CholeskySolver::Factor {
   Backend backend;
 };
 
-CholeskySolver::CholeskySolver(const SymmetricEntries& matrix) : factor_(std::make_unique<Factor>()) {
-  configure(factor_->backend, matrix.size);
-  factor_->backend.compute(assemble(matrix));
+CholeskySolver::CholeskySolver(const SymmetricEntries& matrix)
+    : factor_(std::make_unique<Factor>()), position_(elimination_positions(matrix)) {
+  configure(factor_->backend);
+  factor_->backend.compute(assemble(matrix, position_));
   if (factor_->backend.info() != Eigen::Success)
     throw SolverFailure("a sparse system of " + std::to_string(matrix.size) +
                         " unknowns is not positive definite; look for degenerate triangles in the input");
@@ -61,11 +75,13 @@ CholeskySolver::CholeskySolver(const SymmetricEntries& matrix) : factor_(std::ma
 CholeskySolver::~CholeskySolver() = default;
 
 std::vector<double> CholeskySolver::solve(const std::vector<double>& right_hand_side) const {
-  const Eigen::Map<const Eigen::VectorXd> b(right_hand_side.data(),
-                                            static_cast<Eigen::Index>(right_hand_side.size()));
+  Eigen::VectorXd b(static_cast<Eigen::Index>(right_hand_side.size()));
+  for (size_t i = 0; i < right_hand_side.size(); ++i) b[position_[i]] = right_hand_side[i];
   const Eigen::VectorXd x = factor_->backend.solve(b);
   if (!x.allFinite()) throw SolverFailure("a sparse system has no finite solution");
-  return {x.data(), x.data() + x.size()};
+  std::vector<double> solution(right_hand_side.size());
+  for (size_t i = 0; i < solution.size(); ++i) solution[i] = x[position_[i]];
+  return solution;
 }
 
 }  // namespace anisomesh::detail

@@ -34,6 +34,7 @@ class CholeskySolver {
  private:
   struct Factor;
   std::unique_ptr<Factor> factor_;
+  std::vector<int> position_;  ///< of each unknown in the order of elimination
 };
 
 }  // namespace anisomesh::detail
