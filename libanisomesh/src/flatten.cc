@@ -18,23 +18,23 @@ namespace {
 
 using namespace detail;
 
-bool is_valid(const Patch& patch, const std::vector<TriangleShape>& shapes, std::vector<Vec2d>& map,
-              size_t& repaired) {
-  repaired = invalid_triangles(patch, map).size();
-  return repair(patch, shapes, map) && border_is_simple(patch, map);
-}
-
-/// The first map that is one to one: the free border, then borders ever more like a circle, then the disc.
+/// The first map that is one to one: the free border, then borders ever more like a circle as long as they
+/// cross themselves, then the disc.
 std::vector<Vec2d> valid_map(const Patch& patch, FlattenReport& report, const Progress& progress) {
   const auto shapes = triangle_shapes(patch);
-  for (const double roundness : {0.0, 0.3, 0.6, 0.9}) {
+  for (const double roundness : {0.0, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9}) {
     auto map = boundary_first_map(patch, shapes, roundness);
     report_progress(progress, 0.6);
-    if (is_valid(patch, shapes, map, report.repaired_triangles)) return map;
+    report.border_roundness = roundness;
+    report.repaired_triangles = invalid_triangles(patch, map).size();
+    if (!repair(patch, shapes, map)) break;
+    if (border_is_simple(patch, map)) return map;
   }
   report.free_boundary = false;
+  report.border_roundness = 1;
   auto map = disc_map(patch, shapes);
-  if (is_valid(patch, shapes, map, report.repaired_triangles)) return map;
+  report.repaired_triangles = invalid_triangles(patch, map).size();
+  if (repair(patch, shapes, map) && border_is_simple(patch, map)) return map;
   const auto invalid = invalid_triangles(patch, map);
   throw CannotProcess(
       "no one-to-one conformal map of the patch was found: " + std::to_string(invalid.size()) +

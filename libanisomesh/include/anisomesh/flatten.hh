@@ -12,12 +12,14 @@ struct FlattenReport {
   double max_conformal_distortion = 1;
   double min_area_stretch = 1, max_area_stretch = 1;  ///< over the vertices
   bool free_boundary = true;      ///< false if the border had to be mapped to a circle to get a valid map
+  double border_roundness = 0;    ///< 0: the border keeps its lengths as far as a conformal map can; above 0:
+                                  ///< bent that far towards a circle, since it crossed itself; 1: a circle
   size_t repaired_triangles = 0;  ///< flipped by the free-boundary solution, then repaired
   double seconds = 0;
 };
 
 /// Maps a disc-like patch to the plane, conformally as far as possible, with no flipped triangle and no
-/// overlap. [ACDLD03, section 2.2; Lévy et al. 2002, Desbrun et al. 2002]
+/// overlap. [ACDLD03, section 2.2; Sawhney and Crane, Boundary First Flattening, 2017]
 ///
 /// Reads: points, tensor, normal. Writes: uv, area_stretch, tensor2d (properties.hh), and the same uv as
 /// OpenMesh's 2D texture coordinates where the mesh has them requested. \pre one component with one border

@@ -13,20 +13,34 @@ namespace {
 // Twice the area over the square of the longest edge must be above this: far above rounding, far below what a
 // proper triangle has.
 constexpr double least_thickness = 1e-9;
+// Coordinates are rounded to 2^-53 of the map's extent. The longest edge of a triangle must be far above
+// that.
+constexpr double least_length = 1e-12;
 
-bool is_invalid(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
-  const Vec2d ab = b - a, ac = c - a, bc = c - b;
-  const double longest = std::max({ab.sqrnorm(), ac.sqrnorm(), bc.sqrnorm()});
-  const double reach = std::max({a.sqrnorm(), b.sqrnorm(), c.sqrnorm()});
-  // Coordinates are rounded to 2^-53 of their size: an edge must be far longer than that.
-  return !(cross2(ab, ac) > least_thickness * longest) || !(longest > 1e-24 * reach);
-}
+/// Tells invalid triangles of one map.
+class Validity {
+ public:
+  explicit Validity(const std::vector<Vec2d>& map) {
+    Vec2d low = map.front(), high = map.front();
+    for (const Vec2d& p : map) {
+      low.minimize(p);
+      high.maximize(p);
+    }
+    shortest_squared_ = least_length * least_length * (high - low).sqrnorm();
+  }
 
-bool is_invalid(const Patch& patch, const std::vector<Vec2d>& map, size_t t) {
-  const auto& triangle = patch.triangles[t];
-  return is_invalid(map[static_cast<size_t>(triangle[0])], map[static_cast<size_t>(triangle[1])],
-                    map[static_cast<size_t>(triangle[2])]);
-}
+  bool is_invalid(const Patch& patch, const std::vector<Vec2d>& map, size_t t) const {
+    const auto& triangle = patch.triangles[t];
+    const Vec2d &a = map[static_cast<size_t>(triangle[0])], &b = map[static_cast<size_t>(triangle[1])],
+                &c = map[static_cast<size_t>(triangle[2])];
+    const Vec2d ab = b - a, ac = c - a, bc = c - b;
+    const double longest = std::max({ab.sqrnorm(), ac.sqrnorm(), bc.sqrnorm()});
+    return !(cross2(ab, ac) > least_thickness * longest) || !(longest > shortest_squared_);
+  }
+
+ private:
+  double shortest_squared_;
+};
 
 struct Segment {
   Vec2d low, high;  ///< by x
@@ -77,7 +91,12 @@ struct Stars {
 class Relaxation {
  public:
   Relaxation(const Patch& patch, const std::vector<TriangleShape>& shapes, std::vector<Vec2d>& map)
-      : patch_(patch), shapes_(shapes), map_(map), stars_(patch), on_border_(patch.points.size(), false) {
+      : patch_(patch),
+        shapes_(shapes),
+        map_(map),
+        validity_(map),
+        stars_(patch),
+        on_border_(patch.points.size(), false) {
     for (const int b : patch.border) on_border_[static_cast<size_t>(b)] = true;
   }
 
@@ -150,7 +169,7 @@ class Relaxation {
     Vec2d sum(0, 0);
     double weights = 0;
     for_star(vertex, [&](size_t t, size_t i) {
-      wrong = wrong || is_invalid(patch_, map_, t);
+      wrong = wrong || validity_.is_invalid(patch_, map_, t);
       const Vec2d& a = map_[static_cast<size_t>(patch_.triangles[t][(i + 1) % 3])];
       const Vec2d& b = map_[static_cast<size_t>(patch_.triangles[t][(i + 2) % 3])];
       const double cot_a = shapes_[t].cotangent[(i + 1) % 3], cot_b = shapes_[t].cotangent[(i + 2) % 3];
@@ -165,6 +184,7 @@ class Relaxation {
   const Patch& patch_;
   const std::vector<TriangleShape>& shapes_;
   std::vector<Vec2d>& map_;
+  Validity validity_;
   Stars stars_;
   std::vector<bool> on_border_;
 };
@@ -179,9 +199,10 @@ double signed_area(const Patch& patch, const std::vector<Vec2d>& map, size_t tri
 }
 
 std::vector<int> invalid_triangles(const Patch& patch, const std::vector<Vec2d>& map) {
+  const Validity validity(map);
   std::vector<int> invalid;
   for (size_t t = 0; t < patch.triangles.size(); ++t)
-    if (is_invalid(patch, map, t)) invalid.push_back(static_cast<int>(t));
+    if (validity.is_invalid(patch, map, t)) invalid.push_back(static_cast<int>(t));
   return invalid;
 }
 
