@@ -72,10 +72,7 @@ Vec3d direction(const SurfaceRef& surface, HalfedgeHandle halfedge) {
 class SkeletonBuilder {
  public:
   SkeletonBuilder(const SurfaceRef& surface, double corner_angle_degrees)
-      : surface_(surface),
-        mesh_(surface.connectivity()),
-        is_corner_(mesh_.n_vertices(), 0),
-        used_(mesh_.n_edges(), 0) {
+      : mesh_(surface.connectivity()), is_corner_(mesh_.n_vertices(), 0), used_(mesh_.n_edges(), 0) {
     for (const auto v : mesh_.vertices()) {
       const auto leaving = graph_halfedges(mesh_, v);
       if (leaving.empty()) continue;
@@ -123,7 +120,6 @@ class SkeletonBuilder {
     skeleton_.curves.push_back(std::move(curve));
   }
 
-  const SurfaceRef& surface_;
   const TriConnectivity& mesh_;
   std::vector<char> is_corner_, used_;
   FeatureSkeleton skeleton_;

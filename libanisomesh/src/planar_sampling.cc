@@ -13,6 +13,15 @@ constexpr double jitter = 0.35;  // of the spacing, either way: visibly irregula
 
 double symmetric(std::mt19937& generator) { return 2 * uniform(generator) - 1; }
 
+/// The indices of (position along the border, index) pairs by position.
+std::vector<int> in_order(std::vector<std::pair<double, int>>& around) {
+  std::sort(around.begin(), around.end());
+  std::vector<int> indices(around.size());
+  std::transform(around.begin(), around.end(), indices.begin(),
+                 [](const auto& entry) { return entry.second; });
+  return indices;
+}
+
 }  // namespace
 
 double uniform(std::mt19937& generator) {
@@ -93,10 +102,7 @@ void make_irregular_rectangle(PlanarSampling& sampling, double width, double hei
     else if (p[0] == 0)
       around.emplace_back(2 * width + 2 * height - p[1], i);
   }
-  std::sort(around.begin(), around.end());
-  std::vector<int> border;
-  for (const auto& [where, i] : around) border.push_back(i);
-  triangulate_delaunay(sampling, border);
+  triangulate_delaunay(sampling, in_order(around));
 }
 
 void make_irregular_disc(PlanarSampling& sampling, int crease_rays, double spacing, std::mt19937& generator) {
@@ -122,10 +128,7 @@ void make_irregular_disc(PlanarSampling& sampling, int crease_rays, double spaci
     }
     if (border) around.emplace_back(std::atan2(p[1], p[0]), static_cast<int>(i));
   }
-  std::sort(around.begin(), around.end());
-  std::vector<int> border;
-  for (const auto& [where, i] : around) border.push_back(i);
-  triangulate_delaunay(sampling, border);
+  triangulate_delaunay(sampling, in_order(around));
 }
 
 }  // namespace anisomesh::detail

@@ -23,19 +23,44 @@ std::pair<double, double> range_in_ball(const Vector& a, const Vector& b, double
 
 double cross(const Vec2d& a, const Vec2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
-/// Signed area of the triangle (origin, a, b) within the disc around the origin.
-double wedge_in_disc(const Vec2d& a, const Vec2d& b, double radius_squared) {
-  const auto sector = [&](const Vec2d& p, const Vec2d& q) {
-    return 0.5 * radius_squared * std::atan2(cross(p, q), p | q);
-  };
-  const auto [first, second] = range_in_ball(a, b, radius_squared);
-  if (!(first < second)) return sector(a, b);
-  const Vec2d p = a + first * (b - a), q = a + second * (b - a);
-  double area = 0.5 * cross(p, q);
-  if (first > 0) area += sector(a, p);
-  if (second < 1) area += sector(q, b);
-  return area;
-}
+/// The area of a polygon within a disc around the origin, edge by edge: chords within the disc and sectors
+/// outside of it.
+class DiscClip {
+ public:
+  /// \param may_surround whether the polygon can turn around the origin by more than half a turn; if not, all
+  /// sectors together cost one arc tangent instead of one each.
+  DiscClip(double radius_squared, bool may_surround)
+      : radius_squared_(radius_squared), may_surround_(may_surround) {}
+
+  void add_edge(const Vec2d& a, const Vec2d& b) {
+    const auto [first, second] = range_in_ball(a, b, radius_squared_);
+    if (!(first < second)) return add_sector(a, b);
+    const Vec2d p = a + first * (b - a), q = a + second * (b - a);
+    doubled_chords_ += cross(p, q);
+    if (first > 0) add_sector(a, p);
+    if (second < 1) add_sector(q, b);
+  }
+
+  double area() const {
+    return 0.5 * (doubled_chords_ + radius_squared_ * (angle_ + std::atan2(sine_, cosine_)));
+  }
+
+ private:
+  void add_sector(const Vec2d& p, const Vec2d& q) {
+    const double x = (p | q) / radius_squared_, y = cross(p, q) / radius_squared_;
+    if (may_surround_) {
+      angle_ += std::atan2(y, x);
+      return;
+    }
+    const double cosine = cosine_ * x - sine_ * y;
+    sine_ = cosine_ * y + sine_ * x;
+    cosine_ = cosine;
+  }
+
+  double radius_squared_, doubled_chords_ = 0, angle_ = 0;
+  double cosine_ = 1, sine_ = 0;  // of the sum of the angles, times a positive factor
+  bool may_surround_;
+};
 
 }  // namespace
 
@@ -53,8 +78,12 @@ double area_in_ball(const Vec3d& a, const Vec3d& b, const Vec3d& c, double radiu
   const double height = (a | normal) / doubled, disc = radius * radius - height * height;
   if (!(disc > 0)) return 0;
   const Vec2d p(a | x, a | y), q(b | x, b | y), r(c | x, c | y);
-  const double area = wedge_in_disc(p, q, disc) + wedge_in_disc(q, r, disc) + wedge_in_disc(r, p, disc);
-  return std::clamp(area, 0.0, 0.5 * doubled);
+  const bool surrounds = cross(p, q) > 0 && cross(q, r) > 0 && cross(r, p) > 0;
+  DiscClip clip(disc, surrounds);
+  clip.add_edge(p, q);
+  clip.add_edge(q, r);
+  clip.add_edge(r, p);
+  return std::clamp(clip.area(), 0.0, 0.5 * doubled);
 }
 
 bool meets_ball(const Vec3d& a, const Vec3d& b, double radius) {
