@@ -255,9 +255,16 @@ TEST_CASE("circles and radii around an isotropic sample", "[mesher]") {
   CHECK(with_kind(result, EdgeKind::min) == 16);
   CHECK(euler(result) == 1);
   CHECK(area(result) == Approx(1));
-  for (const auto v : result.vertices())
-    if (result.property(require_property(result, property::origin), v) == static_cast<int>(Origin::isotropic))
-      CHECK(result.valence(v) == 8);  // its fan inside the inner circle
+  for (const int max_degree : {3, 4}) {
+    MeshOptions options;
+    options.max_degree = max_degree;
+    const auto mesh_of = build_polygons(drawing.surface(), options);
+    const auto origin = require_property(mesh_of, property::origin);
+    for (const auto v : mesh_of.vertices())
+      if (mesh_of.property(origin, v) == static_cast<int>(Origin::isotropic))
+        CHECK(mesh_of.valence(v) ==
+              (max_degree == 3 ? 8 : 4));  // its fan in the inner circle, joined in pairs
+  }
 }
 
 TEST_CASE("features stay, and lines that stop at them meet them", "[mesher]") {
@@ -308,7 +315,7 @@ TEST_CASE("a chain is straightened as far as the tolerance goes", "[mesher]") {
   // A chord over the angle a lies 1 - cos(a / 2) below the arc: at least 4 chords, and halving may need 8.
   CHECK(on_line >= 5);
   CHECK(on_line <= 9);
-  options.chain_tolerance = std::numeric_limits<double>::infinity();
+  options.chain_tolerance = options.cell_tolerance = std::numeric_limits<double>::infinity();
   CHECK(build_polygons(drawing.surface(), options).n_vertices() == 6);
 }
 

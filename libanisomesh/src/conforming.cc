@@ -32,8 +32,8 @@ bool turns_left(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
 class Partition {
  public:
   Partition(const RegionCorners& region, const PolygonJudge& judge, bool quads)
-      : region_(region), judge_(judge), quads_(quads), n_(static_cast<int>(region.size())) {
-    const auto squared = region.size() * region.size();
+      : region_(region), judge_(judge), quads_(quads), n_(static_cast<int>(region.loop)) {
+    const auto squared = region.loop * region.loop;
     best_.assign(squared, {});
     allowed_.assign(squared, 0);
     for (int i = 0; i < n_; ++i)
@@ -54,7 +54,7 @@ class Partition {
     double cost = std::numeric_limits<double>::infinity();
     int first = -1, second = -1;  // corners of the piece between i and j
   };
-  size_t key(int i, int j) const { return at(i) * region_.size() + at(j); }
+  size_t key(int i, int j) const { return at(i) * region_.loop + at(j); }
   bool is_side(int i, int j) const { return j == i + 1 || (i == 0 && j == n_ - 1); }
   bool is_inner(int i, int j) const;
   bool sees(int i, int j) const;
@@ -136,7 +136,9 @@ RegionCorners part_of(const RegionCorners& region, const Piece& piece) {
     part.uv.push_back(region.uv[at(i)]);
     part.position.push_back(region.position[at(i)]);
     part.face.push_back(region.face[at(i)]);
+    part.corner_normal.push_back(region.corner_normal[at(i)]);
   }
+  part.loop = piece.size();
   part.normal = region.normal;
   return part;
 }
@@ -154,7 +156,7 @@ bool acceptable(const RegionCorners& region, const Piece& piece, const Partition
 
 // Triangles where nothing better works: ears of the polygon in the plane, widest first.
 std::vector<Piece> cut_ears(const RegionCorners& region) {
-  Piece ring(region.size());
+  Piece ring(region.loop);
   for (size_t i = 0; i < ring.size(); ++i) ring[i] = static_cast<int>(i);
   std::vector<Piece> triangles;
   while (ring.size() > 3) {
@@ -184,7 +186,8 @@ std::vector<Piece> cut_ears(const RegionCorners& region) {
 
 // Small enough pieces for the search: convex ones where CGAL's partition finds them.
 std::vector<Piece> cut_up(const RegionCorners& region) {
-  const auto pieces = convex_partition(region.uv);
+  const auto pieces =
+      convex_partition({region.uv.begin(), region.uv.begin() + static_cast<std::ptrdiff_t>(region.loop)});
   return pieces.empty() ? cut_ears(region) : pieces;
 }
 
@@ -192,13 +195,13 @@ std::vector<Piece> cut_up(const RegionCorners& region) {
 
 std::vector<Piece> partition_region(const RegionCorners& region, const PolygonJudge& judge,
                                     const PartitionOptions& options) {
-  Piece whole(region.size());
+  Piece whole(region.loop);
   for (size_t i = 0; i < whole.size(); ++i) whole[i] = static_cast<int>(i);
-  if (region.size() == 3) return {whole};
+  if (region.loop == 3) return {whole};
   if (options.max_degree != 4 && options.max_degree != 3 && acceptable(region, whole, options))
     return {whole};
 
-  const bool large = region.size() > search_limit;
+  const bool large = region.loop > search_limit;
   if (large || options.max_degree == 0) {
     std::vector<Piece> pieces = cut_up(region), result;
     if (pieces.size() > 1) {

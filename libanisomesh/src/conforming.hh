@@ -12,7 +12,7 @@ struct PartitionOptions {
   bool convex = true;
 };
 
-/// Cuts a simple region into polygons, given as indices into the region's corners, counter-clockwise.
+/// Cuts the loop of a simple region into polygons, given as indices into its corners, counter-clockwise.
 std::vector<std::vector<int>> partition_region(const RegionCorners& region, const PolygonJudge& judge,
                                                const PartitionOptions& options);
 

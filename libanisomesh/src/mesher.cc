@@ -8,6 +8,7 @@
 #include "anisomesh/errors.hh"
 #include "anisomesh/properties.hh"
 #include "decimation.hh"
+#include "joining.hh"
 #include "network_graph.hh"
 #include "polygons.hh"
 
@@ -130,6 +131,7 @@ void MeshOptions::validate() const {
   if (!(corner_angle_degrees >= 0 && corner_angle_degrees <= 180))
     throw InvalidOption("corner_angle_degrees must be between 0 and 180");
   if (!(chain_tolerance >= 0)) throw InvalidOption("chain_tolerance must not be negative");
+  if (!(cell_tolerance > 0)) throw InvalidOption("cell_tolerance must be above 0");
   if (!(merge_fraction >= 0 && merge_fraction < 1)) throw InvalidOption("merge_fraction must be in [0, 1)");
   if (!(max_bend_degrees > 0 && max_bend_degrees <= 180))
     throw InvalidOption("max_bend_degrees must be above 0 and at most 180");
@@ -161,7 +163,12 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
   report_progress(progress, 0.7);
 
   const detail::PolygonJudge judge(surface, locator, normals, {epsilon, options.max_bend_degrees});
-  const auto set = detail::extract_polygons(network, judge, {options.max_degree, options.convex});
+  auto set = detail::extract_polygons(
+      network, surface, locator, normals, judge,
+      {{options.max_degree, options.convex}, options.cell_tolerance * epsilon, options.flip_edges});
+  if (options.max_degree == 4) detail::join_pairs(set.polygons, network, judge, options.join_lines);
+  local.added_samples = set.added_samples;
+  local.dropped_samples = set.dropped_samples;
   local.convexity_splits = set.convexity_splits;
   local.conforming_edges = set.conforming_edges;
   OpenMesh::PolyMesh mesh;

@@ -16,7 +16,8 @@ constexpr double shape_weight = 2;
 constexpr double error_weight = 0.3;
 constexpr double max_error_ratio = 10;
 constexpr double bent = 3;         // a quad bent too far: worse than two good triangles
-constexpr double forbidden = 1e3;  // concave, degenerate or folded: only where nothing else is left
+constexpr double folded = 1e3;     // only where nothing else is left
+constexpr double forbidden = 1e6;  // concave or without area: two folded triangles are better than that
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -63,6 +64,13 @@ double PolygonJudge::error_cost(const RegionCorners& region, int a, int b) const
   return error_weight * std::min(chord_error(region, a, b) / options_.epsilon, max_error_ratio);
 }
 
+// Which way the surface faces at some corners; where all lie on features, in the region.
+Vec3d PolygonJudge::reference_normal(const RegionCorners& region, std::initializer_list<int> corners) {
+  Vec3d sum(0, 0, 0);
+  for (const int i : corners) sum += region.corner_normal[at(i)];
+  return sum.sqrnorm() > 0 ? sum : region.normal;
+}
+
 double PolygonJudge::triangle_cost(const RegionCorners& region, int a, int b, int c) const {
   const std::array<Vec3d, 3> p{region.position[at(a)], region.position[at(b)], region.position[at(c)]};
   const Vec3d area = area_vector(p);
@@ -73,12 +81,11 @@ double PolygonJudge::triangle_cost(const RegionCorners& region, int a, int b, in
     widest = std::max(widest, pi - std::atan2(cross(in, out).norm(), in | out));
   }
   double cost = triangle_base + shape_weight * angle_cost(std::max(widest, pi / 2));
-  if (!(area.norm() > 1e-5 * longest)) cost += forbidden;
-  if ((area | region.normal) <= 0) cost += forbidden;
+  if (!(area.norm() > 1e-5 * longest)) cost += folded;
+  if ((area | reference_normal(region, {a, b, c})) <= 0) cost += folded;
   // Every inner chord is a side of two pieces.
-  const int n = static_cast<int>(region.size());
   for (const auto& side : {std::array<int, 2>{a, b}, {b, c}, {c, a}})
-    if ((side[0] + 1) % n != side[1]) cost += 0.5 * error_cost(region, side[0], side[1]);
+    if (!region.is_side(side[0], side[1])) cost += 0.5 * error_cost(region, side[0], side[1]);
   return cost;
 }
 
@@ -98,7 +105,7 @@ double PolygonJudge::quad_cost(const RegionCorners& region, const std::array<int
     if (turn < -4 * degree) cost += forbidden;
     shape = std::max(shape, angle_cost(pi - turn));
   }
-  if ((normal | region.normal) <= 0) cost += forbidden;
+  if ((normal | reference_normal(region, {quad[0], quad[1], quad[2], quad[3]})) <= 0) cost += 2 * folded;
   cost += shape_weight * shape;
   // Whoever draws it will use the shorter diagonal.
   const bool second = (p[1] - p[3]).sqrnorm() < (p[0] - p[2]).sqrnorm();
@@ -109,9 +116,9 @@ double PolygonJudge::quad_cost(const RegionCorners& region, const std::array<int
   const double bend = std::atan2(cross(n1, n2).norm(), n1 | n2);
   if (bend > options_.max_bend_degrees * degree) cost += bent;
   cost += error_cost(region, quad[first_corner], quad[first_corner + 2]);
-  const int n = static_cast<int>(region.size());
   for (size_t k = 0; k < 4; ++k)
-    if ((quad[k] + 1) % n != quad[(k + 1) % 4]) cost += 0.5 * error_cost(region, quad[k], quad[(k + 1) % 4]);
+    if (!region.is_side(quad[k], quad[(k + 1) % 4]))
+      cost += 0.5 * error_cost(region, quad[k], quad[(k + 1) % 4]);
   return cost;
 }
 

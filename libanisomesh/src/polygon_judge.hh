@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
 #include <vector>
 
 #include "surface_normals.hh"
@@ -15,8 +16,15 @@ struct RegionCorners {
   std::vector<Vec2d> uv;
   std::vector<Vec3d> position;
   std::vector<OpenMesh::FaceHandle> face;  ///< of the surface point
+  std::vector<Vec3d> corner_normal;        ///< of the surface there; zero on a feature, where it has none
+  size_t loop = 0;                         ///< so many of them, the first, go around it
   Vec3d normal{0, 0, 0};                   ///< unit, of the surface inside the region
   size_t size() const { return node.size(); }
+  /// Whether b follows a on the border of the region.
+  bool is_side(int a, int b) const {
+    const int n = static_cast<int>(loop);
+    return a < n && b < n && (a + 1) % n == b;
+  }
 };
 
 struct JudgeOptions {
@@ -41,6 +49,7 @@ class PolygonJudge {
 
  private:
   double error_cost(const RegionCorners& region, int a, int b) const;
+  static Vec3d reference_normal(const RegionCorners& region, std::initializer_list<int> corners);
 
   const SurfaceRef& surface_;
   const UvLocator& locator_;

@@ -1,8 +1,12 @@
 #include "polygons.hh"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "anisomesh/errors.hh"
 #include "numerics/arrangement.hh"
 
 namespace anisomesh::detail {
@@ -12,50 +16,79 @@ namespace {
 using Triangle = Arrangement::Triangle;
 size_t at(int i) { return static_cast<size_t>(i); }
 
+double turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
 class Extractor {
  public:
-  Extractor(const NetworkGraph& network, const PolygonJudge& judge, const PartitionOptions& options)
-      : network_(network), judge_(judge), options_(options) {}
+  Extractor(NetworkGraph& network, const SurfaceRef& surface, const UvLocator& locator,
+            const SurfaceNormals& normals, const PolygonJudge& judge, const RegionOptions& options)
+      : network_(network),
+        surface_(surface),
+        locator_(locator),
+        normals_(normals),
+        judge_(judge),
+        options_(options) {}
 
   PolygonSet run() {
     triangulate();
-    mark_outside();
-    for (size_t t = 0; t < triangles_.size(); ++t)
-      if (region_of_[t] == unseen) extract(flood(static_cast<int>(t), ++regions_));
-    return std::move(result_);
+    flood_all();
+    gather_samples();
+    if (std::isfinite(options_.cell_tolerance)) gather_probes();
+    std::vector<RegionPolygons> results(regions_.size());
+    tbb::parallel_for(size_t{0}, regions_.size(), [&](size_t r) {
+      outline(regions_[r]);
+      results[r] = mesh_region(regions_[r].region, judge_, options_);
+    });
+    PolygonSet set;
+    for (size_t r = 0; r < regions_.size(); ++r) append(regions_[r].region, results[r], set);
+    return set;
   }
 
  private:
   static constexpr int unseen = -2, outside = -1;
+  struct Flooded {
+    std::vector<int> triangles;
+    std::vector<int> samples;  // isotropic, inside
+    Region region;
+  };
 
   void triangulate();
-  void mark_outside();
+  void flood_all();
   std::vector<int> flood(int start, int region);
-  bool is_barrier(const Triangle& t, size_t k) const;
-  bool is_isotropic(int node) const {
-    return network_.origins[at(node)] == Origin::isotropic && network_.fixed[at(node)];
-  }
-  void extract(const std::vector<int>& triangles);
-  RegionCorners corners_of(const std::vector<int>& nodes, const std::vector<int>& triangles) const;
+  int locate(const Vec2d& uv) const;
+  const Vec2d& uv_of(int node) const { return node < 0 ? box_[at(-1 - node)] : network_.graph.uv(node); }
+  void gather_samples();
+  void gather_probes();
+  void outline(Flooded& flooded) const;
+  std::vector<int> border_of(const Flooded& flooded, bool& simple) const;
+  void add_corner(RegionCorners& corners, int node) const;
+  void set_normal(Flooded& flooded) const;
+  void append(const Region& region, RegionPolygons& result, PolygonSet& set);
+  // A sample that no edge leads to; others are part of the network already.
+  bool is_free_sample(int node) const { return network_.fixed[at(node)] && network_.graph.degree(node) == 0; }
 
-  const NetworkGraph& network_;
+  NetworkGraph& network_;
+  const SurfaceRef& surface_;
+  const UvLocator& locator_;
+  const SurfaceNormals& normals_;
   const PolygonJudge& judge_;
-  PartitionOptions options_;
-  std::vector<Triangle> triangles_;  // their nodes are those of the network
-  std::vector<int> kind_;            // of each graph edge of the arrangement
+  RegionOptions options_;
+  std::vector<Triangle>
+      triangles_;  // their nodes are those of the network, edge >= 0 says it is a constraint
+  std::array<Vec2d, 4> box_;
   std::vector<int> region_of_;
-  int regions_ = 0;
-  PolygonSet result_;
+  std::vector<Flooded> regions_;
+  mutable int last_ = 0;
 };
 
 void Extractor::triangulate() {
   const PlanarGraph& graph = network_.graph;
-  Vec2d low = graph.uv(0), high = graph.uv(0);
   std::vector<int> used;
-  for (int n = 0; n < static_cast<int>(graph.n_nodes()); ++n) {
-    if (graph.degree(n) == 0 && !network_.fixed[at(n)]) continue;
-    used.push_back(n);
-  }
+  for (int n = 0; n < static_cast<int>(graph.n_nodes()); ++n)
+    if (graph.degree(n) > 0) used.push_back(n);
+  Vec2d low = graph.uv(used.front()), high = low;
   for (const int n : used) {
     low.minimize(graph.uv(n));
     high.maximize(graph.uv(n));
@@ -71,23 +104,24 @@ void Extractor::triangulate() {
   if (arrangement.graph().n_nodes() != used.size())
     throw CannotProcess("the decimated network of lines is not planar; the parameterization is degenerate");
   triangles_ = arrangement.triangles();
-  for (Triangle& t : triangles_) {
-    for (int& n : t.node) n = n < 0 ? -1 : used[at(n)];
-    for (int& e : t.edge) e = e < 0 ? -1 : arrangement.graph().edge(e).kind;
-  }
+  for (Triangle& t : triangles_)
+    for (int& n : t.node) n = n < 0 ? n : used[at(n)];
+  for (int i = 0; i < 4; ++i) box_[at(i)] = arrangement.box_corner(-1 - i);
 }
 
-// An edge of the network, or of the triangulation at an isotropic sample.
-bool Extractor::is_barrier(const Triangle& t, size_t k) const {
-  return t.edge[k] >= 0 || is_isotropic(t.node[(k + 1) % 3]) || is_isotropic(t.node[(k + 2) % 3]);
-}
-
-void Extractor::mark_outside() {
+// Outside is what is connected to the corners of the box.
+void Extractor::flood_all() {
   region_of_.assign(triangles_.size(), unseen);
   for (size_t t = 0; t < triangles_.size(); ++t) {
     const auto& node = triangles_[t].node;
-    if (region_of_[t] == unseen && std::count(node.begin(), node.end(), -1) > 0)
+    if (region_of_[t] == unseen && *std::min_element(node.begin(), node.end()) < 0)
       flood(static_cast<int>(t), outside);
+  }
+  for (size_t t = 0; t < triangles_.size(); ++t) {
+    if (region_of_[t] != unseen) continue;
+    Flooded flooded;
+    flooded.triangles = flood(static_cast<int>(t), static_cast<int>(regions_.size()));
+    regions_.push_back(std::move(flooded));
   }
 }
 
@@ -98,8 +132,7 @@ std::vector<int> Extractor::flood(int start, int region) {
     const Triangle& t = triangles_[at(found[i])];
     for (size_t k = 0; k < 3; ++k) {
       const int next = t.neighbor[k];
-      const bool blocked = region == outside ? t.edge[k] >= 0 : is_barrier(t, k);
-      if (next < 0 || blocked || region_of_[at(next)] != unseen) continue;
+      if (next < 0 || t.edge[k] >= 0 || region_of_[at(next)] != unseen) continue;
       region_of_[at(next)] = region;
       found.push_back(next);
     }
@@ -107,84 +140,155 @@ std::vector<int> Extractor::flood(int start, int region) {
   return found;
 }
 
-RegionCorners Extractor::corners_of(const std::vector<int>& nodes, const std::vector<int>& triangles) const {
-  RegionCorners corners;
-  corners.node = nodes;
-  for (const int n : nodes) {
-    corners.uv.push_back(network_.graph.uv(n));
-    corners.position.push_back(network_.positions[at(n)]);
-    corners.face.push_back(network_.points[at(n)].face);
+// The triangle at a point, by walking from the last one found; -1 outside the box.
+int Extractor::locate(const Vec2d& uv) const {
+  int t = last_;
+  for (size_t step = 0; step <= triangles_.size(); ++step) {
+    const Triangle& triangle = triangles_[at(t)];
+    int next = -2;
+    for (size_t i = 0; i < 3 && next == -2; ++i) {
+      const size_t k = (i + step) % 3;
+      if (turn(uv_of(triangle.node[(k + 1) % 3]), uv_of(triangle.node[(k + 2) % 3]), uv) < 0)
+        next = triangle.neighbor[k];
+    }
+    if (next == -2) break;
+    if (next < 0) return -1;
+    t = next;
   }
-  // One normal for the region: that of the surface in the middle of its triangles, by their size in space.
-  for (const int t : triangles) {
+  last_ = t;
+  return t;
+}
+
+void Extractor::gather_samples() {
+  for (int n = 0; n < static_cast<int>(network_.graph.n_nodes()); ++n) {
+    if (!is_free_sample(n)) continue;
+    const int t = locate(network_.graph.uv(n));
+    if (t >= 0 && region_of_[at(t)] >= 0) regions_[at(region_of_[at(t)])].samples.push_back(n);
+  }
+}
+
+// The surface is linear between its vertices, so they are where it is farthest from a polygon.
+void Extractor::gather_probes() {
+  const auto& mesh = surface_.connectivity();
+  for (const auto f : mesh.faces()) {  // by faces: neighbours are near each other, and vertices in no order
+    const auto corners = surface_.corners(f);
+    for (size_t k = 0; k < 3; ++k) {
+      const auto v = corners.vertex[k];
+      if (mesh.is_boundary(v) || mesh.face_handle(mesh.halfedge_handle(v)) != f) continue;
+      const int t = locate(locator_.uv(v));
+      if (t < 0 || region_of_[at(t)] < 0) continue;
+      Probe probe{locator_.uv(v), surface_.point(v), {f, {0, 0, 0}}};
+      probe.point.barycentric[k] = 1;
+      regions_[at(region_of_[at(t)])].region.probes.push_back(probe);
+    }
+  }
+}
+
+// The nodes around a region, in order if they form one loop.
+std::vector<int> Extractor::border_of(const Flooded& flooded, bool& simple) const {
+  std::vector<std::array<int, 2>> sides;
+  for (const int t : flooded.triangles)
+    for (size_t k = 0; k < 3; ++k)
+      if (triangles_[at(t)].edge[k] >= 0)
+        sides.push_back({triangles_[at(t)].node[(k + 1) % 3], triangles_[at(t)].node[(k + 2) % 3]});
+  std::sort(sides.begin(), sides.end());
+  simple = std::adjacent_find(sides.begin(), sides.end(),
+                              [](const auto& x, const auto& y) { return x[0] == y[0]; }) == sides.end();
+  std::vector<int> loop{sides.front()[0]};
+  if (simple)
+    for (int node = sides.front()[1]; node != loop.front();) {
+      loop.push_back(node);
+      node = (*std::lower_bound(sides.begin(), sides.end(), std::array<int, 2>{node, -1}))[1];
+    }
+  if (simple && loop.size() == sides.size()) return loop;
+  simple = false;  // a hole, or an edge that ends inside
+  loop.clear();
+  for (const int t : flooded.triangles)
+    loop.insert(loop.end(), triangles_[at(t)].node.begin(), triangles_[at(t)].node.end());
+  std::sort(loop.begin(), loop.end());
+  loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
+  return loop;
+}
+
+void Extractor::add_corner(RegionCorners& corners, int node) const {
+  corners.node.push_back(node);
+  corners.uv.push_back(network_.graph.uv(node));
+  corners.position.push_back(network_.positions[at(node)]);
+  corners.face.push_back(network_.points[at(node)].face);
+  const auto& graph = network_.graph;
+  bool on_feature = false;
+  for (int e = graph.first_edge(node); e >= 0; e = graph.next_edge(e, node))
+    on_feature |= graph.edge(e).kind == static_cast<int>(EdgeKind::feature);
+  corners.corner_normal.push_back(on_feature ? Vec3d(0, 0, 0) : network_.normals[at(node)]);
+}
+
+// One normal for the region: that of the surface in the middle of its triangles, by their size in space.
+void Extractor::set_normal(Flooded& flooded) const {
+  Vec3d& normal = flooded.region.corners.normal;
+  for (const int t : flooded.triangles) {
     const auto& node = triangles_[at(t)].node;
     Vec2d middle(0, 0);
     for (const int n : node) middle += network_.graph.uv(n) / 3;
     const Vec3d &a = network_.positions[at(node[0])], &b = network_.positions[at(node[1])],
                 &c = network_.positions[at(node[2])];
-    corners.normal +=
-        cross(b - a, c - a).norm() * judge_.surface_normal(middle, network_.points[at(node[0])].face);
+    normal += cross(b - a, c - a).norm() * judge_.surface_normal(middle, network_.points[at(node[0])].face);
   }
-  const double length = corners.normal.norm();
-  if (length > 0) corners.normal /= length;
-  return corners;
+  const double length = normal.norm();
+  if (length > 0) normal /= length;
 }
 
-void Extractor::extract(const std::vector<int>& triangles) {
-  std::vector<std::array<int, 2>> sides;
-  for (const int t : triangles)
-    for (size_t k = 0; k < 3; ++k) {
-      const Triangle& triangle = triangles_[at(t)];
-      const int next = triangle.neighbor[k];
-      if (next < 0 || region_of_[at(next)] != region_of_[at(t)] || is_barrier(triangle, k))
-        sides.push_back({triangle.node[(k + 1) % 3], triangle.node[(k + 2) % 3]});
-    }
-  std::sort(sides.begin(), sides.end());
-  const auto leaving = [&](int node) {
-    return std::lower_bound(sides.begin(), sides.end(), std::array<int, 2>{node, -1});
-  };
-  std::vector<int> loop{sides.front()[0]};
-  for (int node = sides.front()[1]; node != loop.front() && loop.size() <= sides.size();
-       node = (*leaving(node))[1])
-    loop.push_back(node);
-  const bool once = std::adjacent_find(sides.begin(), sides.end(), [](const auto& x, const auto& y) {
-                      return x[0] == y[0];
-                    }) == sides.end();
+void Extractor::outline(Flooded& flooded) const {
+  Region& region = flooded.region;
+  const std::vector<int> loop = border_of(flooded, region.simple);
+  for (const int n : loop) add_corner(region.corners, n);
+  region.corners.loop = region.simple ? loop.size() : 0;
+  std::vector<std::array<int, 2>> index;  // node, corner
+  for (size_t i = 0; i < loop.size(); ++i) index.push_back({loop[i], static_cast<int>(i)});
+  std::sort(index.begin(), index.end());
+  for (const int t : flooded.triangles) {
+    std::array<int, 3> triangle;
+    for (size_t k = 0; k < 3; ++k)
+      triangle[k] = (*std::lower_bound(index.begin(), index.end(),
+                                       std::array<int, 2>{triangles_[at(t)].node[k], -1}))[1];
+    region.triangles.push_back(triangle);
+  }
+  for (const int n : flooded.samples) add_corner(region.corners, n);
+  region.isotropic = flooded.samples.size();
+  set_normal(flooded);
+}
 
-  std::vector<std::vector<int>> pieces;
-  RegionCorners corners;
-  bool convex = true;
-  if (once && loop.size() == sides.size()) {
-    corners = corners_of(loop, triangles);
-    convex = PolygonJudge::is_convex(corners.position);
-    pieces = partition_region(corners, judge_, options_);
-  } else {  // a hole, or an edge that ends inside
-    std::vector<int> nodes;
-    for (const int t : triangles)
-      for (const int n : triangles_[at(t)].node) nodes.push_back(n);
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    corners = corners_of(nodes, triangles);
-    for (const int t : triangles) {
-      pieces.emplace_back();
-      for (const int n : triangles_[at(t)].node)
-        pieces.back().push_back(
-            static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), n) - nodes.begin()));
+void Extractor::append(const Region& region, RegionPolygons& result, PolygonSet& set) {
+  std::vector<int> nodes = region.corners.node;
+  size_t added = 0;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i] >= 0) continue;
+    nodes[i] = network_.graph.add_node(region.corners.uv[i]);
+    const SurfacePoint& point = result.added[added++];
+    network_.points.push_back(point);
+    network_.positions.push_back(position(surface_, point));
+    network_.normals.push_back(normals_.at(point));
+    network_.origins.push_back(Origin::isotropic);
+    network_.fixed.push_back(1);
+  }
+  set.added_samples += added;
+  std::vector<char> used(nodes.size(), 0);
+  for (auto& polygon : result.polygons) {
+    for (int& corner : polygon) {
+      used[at(corner)] = 1;
+      corner = nodes[at(corner)];
     }
-    pieces = join_triangles(corners, std::move(pieces), judge_, options_);
+    set.polygons.push_back(std::move(polygon));
   }
-  (convex ? result_.conforming_edges : result_.convexity_splits) += pieces.size() - 1;
-  for (auto& piece : pieces) {
-    for (int& corner : piece) corner = corners.node[at(corner)];
-    result_.polygons.push_back(std::move(piece));
-  }
+  set.dropped_samples += static_cast<size_t>(std::count(used.begin(), used.end(), 0));
+  (result.convex ? set.conforming_edges : set.convexity_splits) += result.polygons.size() - 1;
 }
 
 }  // namespace
 
-PolygonSet extract_polygons(const NetworkGraph& network, const PolygonJudge& judge,
-                            const PartitionOptions& options) {
-  return Extractor(network, judge, options).run();
+PolygonSet extract_polygons(NetworkGraph& network, const SurfaceRef& surface, const UvLocator& locator,
+                            const SurfaceNormals& normals, const PolygonJudge& judge,
+                            const RegionOptions& options) {
+  return Extractor(network, surface, locator, normals, judge, options).run();
 }
 
 }  // namespace anisomesh::detail

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "conforming.hh"
 #include "network_graph.hh"
+#include "region_mesher.hh"
 
 namespace anisomesh::detail {
 
@@ -12,10 +12,13 @@ struct PolygonSet {
   std::vector<std::vector<int>> polygons;  ///< nodes of the network, counter-clockwise in (u, v)
   size_t convexity_splits = 0;             ///< cuts of regions that were not convex
   size_t conforming_edges = 0;             ///< other cuts, edges at isotropic samples included
+  size_t added_samples = 0;                ///< isotropic vertices where a cell lay too far from the surface
+  size_t dropped_samples = 0;              ///< isotropic samples in cells that are near enough without
 };
 
-/// \throw CannotProcess if the network is not planar
-PolygonSet extract_polygons(const NetworkGraph& network, const PolygonJudge& judge,
-                            const PartitionOptions& options);
+/// Adds the vertices that it needs to the network. \throw CannotProcess if the network is not planar
+PolygonSet extract_polygons(NetworkGraph& network, const SurfaceRef& surface, const UvLocator& locator,
+                            const SurfaceNormals& normals, const PolygonJudge& judge,
+                            const RegionOptions& options);
 
 }  // namespace anisomesh::detail

@@ -23,7 +23,11 @@ struct MeshOptions {
   double corner_angle_degrees = 45;  ///< as in feature_skeleton()
   /// A chain of samples may be straightened as long as they stay this near to it, in units of the epsilon the
   /// lines were traced with; infinite: straighten wherever it is planar, as the paper does; >= 0
-  double chain_tolerance = 1;
+  double chain_tolerance = 3;
+  /// A cell that lies this near to the surface does without its isotropic samples, one that lies farther away
+  /// gets further ones, in the same units; infinite: all samples are used as they are; > 0
+  double cell_tolerance = 4;
+  bool join_lines = true;        ///< two triangles may become a quad across an edge of a line (max_degree 4)
   double merge_fraction = 0.2;   ///< contract edges shorter than this fraction of those they continue; [0, 1)
   double max_bend_degrees = 60;  ///< split quads that are bent more along a diagonal; (0, 180]
   void validate() const;         ///< \throw InvalidOption
@@ -35,6 +39,7 @@ struct MeshReport {
   size_t trimmed = 0;       ///< samples removed as dangling or isolated
   size_t straightened = 0;  ///< samples removed on chains
   size_t merged = 0;        ///< edges contracted because they were too short for their place
+  size_t added_samples = 0, dropped_samples = 0;  ///< isotropic samples, by cell_tolerance
   size_t convexity_splits = 0, conforming_edges = 0;
   double arrangement_seconds = 0, decimation_seconds = 0, polygon_seconds = 0;
   double seconds = 0;

@@ -177,7 +177,7 @@ Arrangement::Arrangement(const Vec2d& low, const Vec2d& high)
   for (int i = 0; i < 4; ++i) {
     const double u = i % 2 ? high[0] + margin[0] : low[0] - margin[0];
     const double v = i / 2 ? high[1] + margin[1] : low[1] - margin[1];
-    implementation_->cdt.insert(Point(u, v))->info() = -1;
+    implementation_->cdt.insert(Point(u, v))->info() = -1 - i;
   }
   implementation_->last = implementation_->cdt.finite_vertices_begin();
 }
@@ -210,6 +210,13 @@ bool Arrangement::insert_segment(int a, int b, int kind, int tag) {
 }
 
 const PlanarGraph& Arrangement::graph() const { return implementation_->graph; }
+Vec2d Arrangement::box_corner(int node) const {
+  // The box was made first, so its corners are the first vertices.
+  for (const Vertex v : implementation_->cdt.finite_vertex_handles())
+    if (v->info() == node) return to_vec(v->point());
+  return {0, 0};
+}
+
 const std::vector<Arrangement::Crossing>& Arrangement::crossings() const {
   return implementation_->crossings;
 }

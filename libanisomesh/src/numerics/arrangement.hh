@@ -34,11 +34,13 @@ class Arrangement {
   const std::vector<Crossing>& crossings() const;
 
   struct Triangle {
-    std::array<int, 3> node;      ///< counter-clockwise; -1 for a corner of the box
+    std::array<int, 3> node;      ///< counter-clockwise; -1 to -4 for a corner of the box
     std::array<int, 3> neighbor;  ///< opposite the node of the same place; -1 outside the box
     std::array<int, 3> edge;      ///< edge of the graph opposite the node of the same place, or -1
   };
   std::vector<Triangle> triangles() const;
+  /// Where a corner of the box is.
+  OpenMesh::Vec2d box_corner(int node) const;
 
  private:
   struct Implementation;

@@ -1,0 +1,193 @@
+#include "region_mesher.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numerics/small_triangulation.hh"
+
+namespace anisomesh::detail {
+
+namespace {
+
+using Piece = std::vector<int>;
+size_t at(int i) { return static_cast<size_t>(i); }
+
+constexpr size_t max_added = 100;      // per region; a bound, not a rule
+constexpr double edge_distance = 0.3;  // of the region's size: nearer to its border a new vertex weighs less
+constexpr int flip_passes = 8;
+
+double turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+class RegionMesher {
+ public:
+  RegionMesher(Region& region, const PolygonJudge& judge, const RegionOptions& options)
+      : region_(region), corners_(region.corners), judge_(judge), options_(options) {}
+
+  RegionPolygons run();
+
+ private:
+  std::vector<Piece> pieces_of(const SmallTriangulation& triangulation) const;
+  double distance(const Probe& probe, int a, int b, int c) const;
+  double distance(const Probe& probe, const std::vector<std::array<int, 3>>& triangles) const;
+  std::vector<std::array<int, 3>> as_drawn(const std::vector<Piece>& pieces) const;
+  bool add_worst(SmallTriangulation& triangulation, RegionPolygons& result);
+  double border_distance(const Vec3d& p) const;
+  void flip_to_lower_cost(SmallTriangulation& triangulation) const;
+
+  Region& region_;
+  RegionCorners& corners_;
+  const PolygonJudge& judge_;
+  const RegionOptions& options_;
+};
+
+// Distance of the surface from the plane of a triangle; the nearest point is not sought, since it lies
+// sideways only where the surface is steep against the triangle.
+double RegionMesher::distance(const Probe& probe, int a, int b, int c) const {
+  const Vec3d &p = corners_.position[at(a)], &q = corners_.position[at(b)], &r = corners_.position[at(c)];
+  const Vec3d normal = cross(q - p, r - p);
+  const double length = normal.norm();
+  return length > 0 ? std::abs((probe.position - p) | normal) / length : 0;
+}
+
+double RegionMesher::distance(const Probe& probe, const std::vector<std::array<int, 3>>& triangles) const {
+  double best = -std::numeric_limits<double>::infinity(), result = 0;
+  for (const auto& t : triangles) {
+    const Vec2d &a = corners_.uv[at(t[0])], &b = corners_.uv[at(t[1])], &c = corners_.uv[at(t[2])];
+    const double inside = std::min({turn(a, b, probe.uv), turn(b, c, probe.uv), turn(c, a, probe.uv)}) /
+                          std::abs(turn(a, b, c));
+    if (inside <= best) continue;
+    best = inside;
+    result = distance(probe, t[0], t[1], t[2]);
+    if (best >= 0) break;
+  }
+  return result;
+}
+
+// Triangles of the polygons with the shorter diagonal, as a viewer draws them.
+std::vector<std::array<int, 3>> RegionMesher::as_drawn(const std::vector<Piece>& pieces) const {
+  std::vector<std::array<int, 3>> triangles;
+  for (const Piece& p : pieces) {
+    size_t first = 0;
+    if (p.size() == 4 && (corners_.position[at(p[1])] - corners_.position[at(p[3])]).sqrnorm() <
+                             (corners_.position[at(p[0])] - corners_.position[at(p[2])]).sqrnorm())
+      first = 1;
+    for (size_t i = 1; i + 1 < p.size(); ++i)
+      triangles.push_back({p[first], p[(first + i) % p.size()], p[(first + i + 1) % p.size()]});
+  }
+  return triangles;
+}
+
+double RegionMesher::border_distance(const Vec3d& p) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  const size_t n = corners_.loop;
+  for (size_t i = 0; i < n; ++i) {
+    const Vec3d &a = corners_.position[i], along = corners_.position[(i + 1) % n] - a;
+    const double squared = along | along;
+    const double t = squared > 0 ? std::clamp(((p - a) | along) / squared, 0.0, 1.0) : 0.0;
+    nearest = std::min(nearest, (p - a - t * along).norm());
+  }
+  return nearest;
+}
+
+// Inserts the probe that the triangles are farthest from, rather one in the middle than one at the border.
+bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& result) {
+  double worst = 0, area = 0;
+  for (const auto& t : triangulation.triangles())
+    area += 0.5 * cross(corners_.position[at(t[1])] - corners_.position[at(t[0])],
+                        corners_.position[at(t[2])] - corners_.position[at(t[0])])
+                      .norm();
+  const double size = edge_distance * std::sqrt(area);
+  Probe* chosen = nullptr;
+  for (Probe& probe : region_.probes) {
+    const auto& t = triangulation.triangles()[at(triangulation.locate(probe.uv))];
+    const double d = distance(probe, t[0], t[1], t[2]);
+    if (d <= options_.cell_tolerance) continue;
+    const double weighted = d * std::min(1.0, border_distance(probe.position) / size);
+    if (weighted <= worst) continue;
+    worst = weighted;
+    chosen = &probe;
+  }
+  if (!chosen) return false;
+  corners_.node.push_back(-1);
+  corners_.uv.push_back(chosen->uv);
+  corners_.position.push_back(chosen->position);
+  corners_.face.push_back(chosen->point.face);
+  corners_.corner_normal.emplace_back(0, 0, 0);
+  if (!triangulation.insert(static_cast<int>(corners_.uv.size()) - 1)) {
+    corners_.node.pop_back();
+    corners_.uv.pop_back();
+    corners_.position.pop_back();
+    corners_.face.pop_back();
+    corners_.corner_normal.pop_back();
+    std::swap(*chosen, region_.probes.back());
+    region_.probes.pop_back();
+    return true;
+  }
+  result.added.push_back(chosen->point);
+  return true;
+}
+
+// [ACDLD03, section 4.2]: "further edge-swaps can be performed later to reduce ... approximation error".
+void RegionMesher::flip_to_lower_cost(SmallTriangulation& triangulation) const {
+  bool changed = true;
+  for (int pass = 0; changed && pass < flip_passes; ++pass) {
+    changed = false;
+    for (int t = 0; t < static_cast<int>(triangulation.triangles().size()); ++t)
+      for (size_t k = 0; k < 3; ++k) {
+        if (triangulation.neighbor(t, k) < t || !triangulation.can_flip(t, k)) continue;
+        const auto& c = triangulation.triangles()[at(t)];
+        const int apex = c[k], a = c[(k + 1) % 3], b = c[(k + 2) % 3], foot = triangulation.across(t, k);
+        const double now =
+            judge_.triangle_cost(corners_, apex, a, b) + judge_.triangle_cost(corners_, foot, b, a);
+        const double then =
+            judge_.triangle_cost(corners_, apex, a, foot) + judge_.triangle_cost(corners_, foot, b, apex);
+        if (then >= now - 1e-6) continue;
+        triangulation.flip(t, k);
+        changed = true;
+      }
+  }
+}
+
+std::vector<Piece> RegionMesher::pieces_of(const SmallTriangulation& triangulation) const {
+  std::vector<Piece> pieces;
+  for (const auto& t : triangulation.triangles()) pieces.push_back({t[0], t[1], t[2]});
+  return options_.partition.max_degree == 0 || options_.partition.max_degree > 4
+             ? join_triangles(corners_, std::move(pieces), judge_, options_.partition)
+             : pieces;
+}
+
+RegionPolygons RegionMesher::run() {
+  RegionPolygons result;
+  const bool bounded = std::isfinite(options_.cell_tolerance);
+  if (region_.simple) {
+    result.convex = PolygonJudge::is_convex(
+        {corners_.position.begin(), corners_.position.begin() + static_cast<std::ptrdiff_t>(corners_.loop)});
+    if (bounded || region_.isotropic == 0) {
+      result.polygons = partition_region(corners_, judge_, options_.partition);
+      const auto drawn = as_drawn(result.polygons);
+      const bool near = std::all_of(region_.probes.begin(), region_.probes.end(), [&](const Probe& probe) {
+        return distance(probe, drawn) <= options_.cell_tolerance;
+      });
+      if (near) return result;
+    }
+  }
+  SmallTriangulation triangulation(corners_.uv, region_.triangles);
+  const int n = static_cast<int>(corners_.size());
+  for (int i = n - static_cast<int>(region_.isotropic); i < n; ++i) triangulation.insert(i);
+  if (options_.flip_edges) flip_to_lower_cost(triangulation);
+  while (bounded && result.added.size() < max_added && add_worst(triangulation, result))
+    if (options_.flip_edges) flip_to_lower_cost(triangulation);
+  result.polygons = pieces_of(triangulation);
+  return result;
+}
+
+}  // namespace
+
+RegionPolygons mesh_region(Region& region, const PolygonJudge& judge, const RegionOptions& options) {
+  return RegionMesher(region, judge, options).run();
+}
+
+}  // namespace anisomesh::detail

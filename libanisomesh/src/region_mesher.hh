@@ -1,0 +1,41 @@
+// Polygons for one region between the edges of the network, as near to the surface as is asked for.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "conforming.hh"
+#include "polygon_judge.hh"
+
+namespace anisomesh::detail {
+
+/// A point of the surface in a region: the polygons should be near it.
+struct Probe {
+  Vec2d uv;
+  Vec3d position;
+  SurfacePoint point;
+};
+
+struct Region {
+  RegionCorners corners;                      ///< those on its border, then its isotropic samples
+  bool simple = true;                         ///< the border is one loop, in order
+  size_t isotropic = 0;                       ///< how many of the corners are isotropic samples
+  std::vector<std::array<int, 3>> triangles;  ///< of the corners on its border, by index
+  std::vector<Probe> probes;
+};
+
+struct RegionOptions {
+  PartitionOptions partition;
+  double cell_tolerance = 0;  ///< model units, see MeshOptions; infinite: keep all samples and add none
+  bool flip_edges = true;
+};
+
+struct RegionPolygons {
+  std::vector<std::vector<int>> polygons;  ///< indices of corners; beyond those given, the added ones
+  std::vector<SurfacePoint> added;
+  bool convex = true;  ///< the region was so from the start
+};
+
+RegionPolygons mesh_region(Region& region, const PolygonJudge& judge, const RegionOptions& options);
+
+}  // namespace anisomesh::detail
