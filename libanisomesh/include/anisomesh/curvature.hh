@@ -30,7 +30,9 @@ struct CurvatureReport {
 ///
 /// Reads: points, edge feature status. Writes: normal, tensor, k_min, k_max, gamma_min, gamma_max
 /// (properties.hh). Vertices on a feature get the average of their sides; one-sided values come from
-/// corner_tensors() in the plane. \throw InvalidOption, InvalidInput, Cancelled; the mesh is then as it was
+/// corner_tensors() in the plane. Balls that do not hold several edges are enlarged; the same bytes for any
+/// number of threads (docs/curvature.md). \throw InvalidOption, InvalidInput, Cancelled; the mesh is then as
+/// it was
 CurvatureReport estimate_curvature(const SurfaceRef& surface, const CurvatureOptions& options = {},
                                    const Progress& progress = {});
 
