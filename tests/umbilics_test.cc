@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anisomesh/curvature.hh"
 #include "anisomesh/flatten.hh"
+#include "anisomesh/io.hh"
 #include "anisomesh/shapes.hh"
+#include "anisomesh/smoothing.hh"
 #include "catch.hh"
+#include "data.hh"
 #include "exact_curvature.hh"
 #include "numerics/tensor2d.hh"
 #include "umbilic_analysis.hh"
@@ -170,4 +174,44 @@ TEST_CASE("lines of the field leave a degenerate point along its separatrices", 
       CHECK(std::abs(detail::cross2(direction, ray)) < 1e-9);
     }
   }
+}
+
+TEST_CASE("with estimated tensors, too, the ellipsoid shows its four wedges", "[umbilics]") {
+  auto mesh = opened_ellipsoid(1.2, 0.9, 0.6, false);
+  estimate_curvature(mesh);
+  flatten(mesh);
+  smooth_tensors(mesh);
+  const auto report = find_umbilics(mesh);
+  CHECK(report.index_sum == 2);
+  CHECK(report.wedges == 4);
+  CHECK(report.border_turning == Approx(2));
+}
+
+TEST_CASE("on features, too, the indices add up to the turning along both sides", "[umbilics]") {
+  auto mesh = make_shape("octa-flower");
+  estimate_curvature(mesh);
+  flatten(mesh);
+  const auto report = find_umbilics(mesh);
+  CHECK(report.index_sum == Approx(report.border_turning).margin(1e-9));
+}
+
+TEST_CASE("on the discs of libcgal-demo the indices add up to the turning along the border",
+          "[umbilics][data]") {
+  size_t total_before = 0, total_after = 0;
+  for (const auto& name : demo_discs()) {
+    const auto path = demo_mesh(name);
+    if (!path) return skip(name);
+    INFO(name);
+    auto mesh = read_surface(*path);
+    estimate_curvature(mesh);
+    flatten(mesh);
+    const auto before = find_umbilics(mesh);
+    smooth_tensors(mesh);
+    const auto after = find_umbilics(mesh);
+    CHECK(before.index_sum == Approx(before.border_turning).margin(1e-9));
+    CHECK(after.index_sum == Approx(after.border_turning).margin(1e-9));
+    total_before += before.wedges + before.trisectors;
+    total_after += after.wedges + after.trisectors;
+  }
+  CHECK(total_after < total_before);
 }

@@ -1,6 +1,8 @@
 #include "cut_surface.hh"
 
+#include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace anisomesh::detail {
 
@@ -101,20 +103,34 @@ NodeNeighbours node_neighbours(const SurfaceRef& surface, const CutSurface& cut)
 std::vector<Vec3d> one_sided_values(const CutSurface& cut, const NodeNeighbours& neighbours,
                                     const std::vector<Vec3d>& at_vertices) {
   std::vector<Vec3d> values(cut.nodes());
+  std::vector<char> known(cut.nodes());
+  std::vector<size_t> open;
   for (size_t n = 0; n < values.size(); ++n) {
     const auto vertex = static_cast<size_t>(cut.vertex_of_node[n]);
     values[n] = at_vertices[vertex];
-    if (!cut.on_feature[vertex]) continue;
-    Vec3d sum(0, 0, 0);
-    int count = 0;
-    for (int k = neighbours.offset[n]; k < neighbours.offset[n + 1]; ++k) {
-      const int other = neighbours.node[static_cast<size_t>(k)];
-      const auto w = static_cast<size_t>(cut.vertex_of_node[static_cast<size_t>(other)]);
-      if (cut.on_feature[w]) continue;
-      sum += at_vertices[w];
-      ++count;
+    known[n] = !cut.on_feature[vertex];
+    if (!known[n]) open.push_back(n);
+  }
+  // Nodes whose neighbours all lie on features get their values from those, once they have some.
+  while (!open.empty()) {
+    std::vector<std::pair<size_t, Vec3d>> found;
+    for (const size_t n : open) {
+      Vec3d sum(0, 0, 0);
+      int count = 0;
+      for (int k = neighbours.offset[n]; k < neighbours.offset[n + 1]; ++k) {
+        const auto other = static_cast<size_t>(neighbours.node[static_cast<size_t>(k)]);
+        if (!known[other]) continue;
+        sum += values[other];
+        ++count;
+      }
+      if (count > 0) found.emplace_back(n, sum / count);
     }
-    if (count > 0) values[n] = sum / count;
+    if (found.empty()) break;  // a part without a vertex off the features: the vertices' own values stay
+    for (const auto& [n, value] : found) {
+      values[n] = value;
+      known[n] = 1;
+    }
+    open.erase(std::remove_if(open.begin(), open.end(), [&](size_t n) { return known[n] != 0; }), open.end());
   }
   return values;
 }

@@ -29,8 +29,9 @@ struct NodeNeighbours {
 };
 NodeNeighbours node_neighbours(const SurfaceRef& surface, const CutSurface& cut);
 
-/// One tensor a node: that of the vertex; on a feature the mean over the node's neighbours off all features,
-/// or the vertex's own where it has none. [ACDLD03, section 2.5]
+/// One tensor a node: that of the vertex; on a feature the mean over the node's neighbours off all features.
+/// A node that has none takes the mean over its neighbours on features instead, and the vertex's own value
+/// where the whole part of the surface between features has no vertex off them. [ACDLD03, section 2.5]
 std::vector<Vec3d> one_sided_values(const CutSurface& cut, const NodeNeighbours& neighbours,
                                     const std::vector<Vec3d>& at_vertices);
 

@@ -15,6 +15,7 @@ namespace anisomesh {
 namespace {
 
 using namespace detail;
+constexpr double pi = 3.14159265358979323846;
 using CornerDeviators = std::vector<std::array<Vec2d, 3>>;
 
 /// Deviators at the corners of every face; those far below anything a surface of this size shows are rounding
@@ -32,6 +33,18 @@ CornerDeviators corner_deviators(const SurfaceRef& surface) {
   return result;
 }
 
+/// The angle from a to b, radians. Where that is half a turn to the last bit, or one of the two is 0, the
+/// side is the one the indices are counted by: the zero moved by an infinitesimal amount to (+, +).
+double turn(const Vec2d& a, const Vec2d& b) {
+  const double cross = cross2(a, b), dot = a | b;
+  if (cross != 0 || dot > 0) return std::atan2(cross, dot);
+  const auto angle = [](const Vec2d& d) {  // in (0, 2 pi]; counted from the positive axis
+    if (d[1] == 0) return d[0] > 0 ? 2 * pi : pi;
+    return d[1] > 0 ? std::atan2(d[1], d[0]) : 2 * pi + std::atan2(d[1], d[0]);
+  };
+  return angle(b) - angle(a) + 2 * pi * doubled_index_of_edge(a, b);
+}
+
 /// Turns of the principal directions along the border and both sides of the features, the surface on the
 /// left, by adding up angles: not the way the indices are found, so that the two can be compared.
 double turning_of_border(const SurfaceRef& surface, const CornerDeviators& deviators) {
@@ -44,10 +57,10 @@ double turning_of_border(const SurfaceRef& surface, const CornerDeviators& devia
         continue;
       const auto& corner = deviators[static_cast<size_t>(f.idx())];
       const Vec2d &a = corner[(i + 2) % 3], &b = corner[i];
-      radians += std::atan2(cross2(a, b), a | b);
+      radians += turn(a, b);
     }
   }
-  return radians / (4 * 3.14159265358979323846);  // the deviator turns twice as fast as the directions
+  return radians / (4 * pi);  // the deviator turns twice as fast as the directions
 }
 
 }  // namespace
