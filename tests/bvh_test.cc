@@ -1,0 +1,98 @@
+#include "numerics/bvh.hh"
+
+#include <cmath>
+#include <random>
+
+#include "catch.hh"
+#include "numerics/sampling.hh"
+
+using namespace anisomesh::detail;
+
+namespace {
+
+class Numbers {
+ public:
+  double operator()() { return (static_cast<double>(generator_()) + 0.5) / 4294967296.0; }
+  Vec3d point() { return {(*this)(), (*this)(), (*this)()}; }
+
+ private:
+  std::mt19937 generator_{7};
+};
+
+}  // namespace
+
+TEST_CASE("the tree finds what a look at every triangle finds", "[bvh]") {
+  Numbers random;
+  std::vector<Vec3d> points;
+  std::vector<Triangle> triangles;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3d centre = random.point();
+    for (int k = 0; k < 3; ++k) points.push_back(centre + 0.1 * random.point());
+    if (i % 10 == 0) points.back() = points[points.size() - 2];  // some without area
+    triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const TriangleTree tree(points, triangles);
+  for (int i = 0; i < 500; ++i) {
+    const Vec3d p = 2.0 * random.point() - Vec3d(0.5, 0.5, 0.5);
+    const auto even = [](int t) { return t % 2 == 0; };
+    double nearest = 1e300, nearest_even = 1e300;
+    for (size_t t = 0; t < triangles.size(); ++t) {
+      const Vec3d &a = points[3 * t], &b = points[3 * t + 1], &c = points[3 * t + 2];
+      const Vec3d w = closest_barycentric(p, a, b, c);
+      const double distance = (w[0] * a + w[1] * b + w[2] * c - p).norm();
+      nearest = std::min(nearest, distance);
+      if (even(static_cast<int>(t))) nearest_even = std::min(nearest_even, distance);
+    }
+    CHECK(std::sqrt(tree.closest(p).squared_distance) == Approx(nearest).epsilon(1e-12));
+    const double unbounded = std::numeric_limits<double>::infinity();
+    CHECK(std::sqrt(tree.closest_if(p, unbounded, even).squared_distance) ==
+          Approx(nearest_even).epsilon(1e-12));
+    CHECK(tree.closest_if(p, 0.99 * nearest * nearest, even).triangle == -1);
+  }
+}
+
+TEST_CASE("no point of a triangle is nearer than the closest one", "[bvh]") {
+  Numbers random;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3d a = random.point(), b = random.point();
+    const Vec3d c = i % 5 == 0 ? a + 0.3 * (b - a) : random.point();  // some without area
+    const Vec3d p = 3.0 * random.point() - Vec3d(1, 1, 1);
+    const Vec3d w = closest_barycentric(p, a, b, c);
+    CHECK(w[0] + w[1] + w[2] == Approx(1));
+    CHECK(std::min({w[0], w[1], w[2]}) >= 0);
+    const double distance = (w[0] * a + w[1] * b + w[2] * c - p).norm();
+    for (int k = 0; k < 20; ++k) {
+      const double r = std::sqrt(random()), s = random();
+      const Vec3d q = a + r * (1 - s) * (b - a) + r * s * (c - a);
+      CHECK((q - p).norm() >= distance - 1e-12);
+    }
+  }
+}
+
+TEST_CASE("samples are spread by area and repeat with the seed", "[bvh]") {
+  // Two right triangles, the second of 9 times the area.
+  const std::vector<Vec3d> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {8, 0, 0}, {5, 3, 0}};
+  const std::vector<Triangle> triangles{{0, 1, 2}, {3, 4, 5}};
+  const auto samples = sample_by_area(points, triangles, 10000, 1);
+  REQUIRE(samples.size() == 10000);
+  size_t small = 0;
+  Vec3d mean(0, 0, 0);
+  for (const auto& sample : samples) {
+    if (sample.triangle == 0)
+      ++small;
+    else
+      mean += sample.point / 9000.0;
+  }
+  CHECK(small == 1000);
+  CHECK(mean[0] == Approx(6).margin(0.02));
+  CHECK(mean[1] == Approx(1).margin(0.02));
+  const auto again = sample_by_area(points, triangles, 10000, 1);
+  const auto other = sample_by_area(points, triangles, 10000, 2);
+  bool same = true, all_other = true;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    same = same && again[i].point == samples[i].point;
+    all_other = all_other && !(other[i].point == samples[i].point);
+  }
+  CHECK(same);
+  CHECK(all_other);
+}
