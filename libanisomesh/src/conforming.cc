@@ -193,6 +193,10 @@ std::vector<Piece> cut_up(const RegionCorners& region) {
 
 }  // namespace
 
+std::vector<Piece> best_partition(const RegionCorners& region, const PolygonJudge& judge) {
+  return Partition(region, judge, true).run();
+}
+
 std::vector<Piece> partition_region(const RegionCorners& region, const PolygonJudge& judge,
                                     const PartitionOptions& options) {
   Piece whole(region.loop);

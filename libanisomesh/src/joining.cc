@@ -1,175 +1,266 @@
 #include "joining.hh"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
+
+#include "conforming.hh"
 
 namespace anisomesh::detail {
 
 namespace {
 
+using Polygon = std::vector<int>;
 size_t at(int i) { return static_cast<size_t>(i); }
 
-// A line is worth something: to take a piece of it out, the quad must be this much better.
-constexpr double line_worth = 0.3;
+// A line is worth something: to take a piece of it out, the rest must be this much better.
+constexpr double line_worth = 0.2;
+constexpr double least_gain = 0.02;
+constexpr int max_rounds = 4;
+constexpr double folded_cost = 500;  // above it the judge has found a fold
 
-class Joiner {
+// Polygons on a path from one triangle to another, and what they would become.
+struct Candidate {
+  std::vector<int> path;
+  double gain = 0;
+  std::vector<Polygon> replacement;
+};
+
+class Pairing {
  public:
-  Joiner(std::vector<std::vector<int>>& polygons, const NetworkGraph& network, const PolygonJudge& judge,
-         bool join_lines)
-      : polygons_(polygons), network_(network), judge_(judge), join_lines_(join_lines) {}
+  Pairing(std::vector<Polygon>& polygons, const NetworkGraph& network, const PolygonJudge& judge,
+          bool join_lines, int max_between)
+      : polygons_(polygons),
+        network_(network),
+        judge_(judge),
+        join_lines_(join_lines),
+        max_between_(max_between) {}
 
   void run() {
-    collect();
-    match();
-    std::vector<std::vector<int>> kept;
-    kept.reserve(polygons_.size());
-    for (auto& polygon : polygons_)
-      if (!polygon.empty()) kept.push_back(std::move(polygon));
-    polygons_ = std::move(kept);
+    for (int round = 0; round < max_rounds; ++round) {
+      connect();
+      std::vector<Candidate> candidates = find_paths();
+      tbb::parallel_for(size_t{0}, candidates.size(), [&](size_t i) { evaluate(candidates[i]); });
+      if (apply(candidates) == 0) return;
+    }
   }
 
  private:
-  struct Candidate {
-    double gain;
-    std::array<size_t, 2> triangle;
-    std::array<int, 4> quad;  // the common edge runs from its first to its third corner
-  };
+  void connect();
+  std::vector<Candidate> find_paths() const;
+  void extend(std::vector<int>& path, std::vector<Candidate>& candidates) const;
+  bool may_go(int a, int b) const;
+  RegionCorners around(const std::vector<int>& path) const;
+  double cost_of(const RegionCorners& corners, const std::vector<Polygon>& pieces) const;
+  double worth_of_lines(const RegionCorners& corners, const std::vector<Polygon>& before,
+                        const std::vector<Polygon>& after) const;
+  void evaluate(Candidate& candidate) const;
+  bool keeps_valence(const Candidate& candidate);
+  size_t apply(std::vector<Candidate>& candidates);
+  bool on_border(int node) const;
 
-  void collect();
-  void consider(size_t first, size_t second, int a, int b);
-  void match();
-  double worth(int a, int b) const;
-  bool can_lose_an_edge(int node) const;
-
-  std::vector<std::vector<int>>& polygons_;
+  std::vector<Polygon>& polygons_;
   const NetworkGraph& network_;
   const PolygonJudge& judge_;
   bool join_lines_;
-  std::vector<Candidate> candidates_;
-  std::vector<int> faces_at_;
+  int max_between_;
+  std::vector<std::array<int, 4>> neighbors_;  // across the side that begins at the corner of the same place
+  std::vector<int> faces_at_;                  // how many polygons at each node
 };
 
-// Three edges are to be left inside, and one face on the border.
-bool Joiner::can_lose_an_edge(int node) const {
-  bool border = false;
-  const auto& graph = network_.graph;
-  for (int e = graph.first_edge(node); e >= 0; e = graph.next_edge(e, node))
-    border |= graph.edge(e).kind == static_cast<int>(EdgeKind::border);
-  return faces_at_[at(node)] > (border ? 1 : 3);
-}
-
-// What the edge is worth by itself; negative: it must stay.
-double Joiner::worth(int a, int b) const {
-  const int edge = network_.graph.find_edge(a, b);
-  if (edge < 0) {
-    const auto isotropic = [&](int n) { return network_.origins[at(n)] == Origin::isotropic; };
-    return isotropic(a) && isotropic(b) ? -1 : 0;
-  }
-  return join_lines_ && is_line(network_.graph.edge(edge).kind) ? line_worth : -1;
-}
-
-void Joiner::consider(size_t first, size_t second, int a, int b) {
-  const double edge_worth = worth(a, b);
-  if (edge_worth < 0) return;
-  const auto apex = [&](size_t t) {
-    for (const int n : polygons_[t])
-      if (n != a && n != b) return n;
-    return -1;
-  };
-  const int c = apex(first), d = apex(second);  // first is (a, b, c), second (b, a, d)
-  RegionCorners corners;
-  corners.node = {a, d, b, c};
-  corners.loop = 4;
-  for (const int n : corners.node) {
-    corners.uv.push_back(network_.graph.uv(n));
-    corners.position.push_back(network_.positions[at(n)]);
-    corners.face.push_back(network_.points[at(n)].face);
-    corners.corner_normal.emplace_back(0, 0, 0);
-  }
-  const auto& p = corners.position;
-  corners.normal = cross(p[2] - p[0], p[3] - p[0]) + cross(p[0] - p[2], p[1] - p[2]);
-  const double now = judge_.triangle_cost(corners, 0, 2, 3) + judge_.triangle_cost(corners, 2, 0, 1);
-  const double gain = now - judge_.quad_cost(corners, {0, 1, 2, 3}) - edge_worth;
-  if (gain > 0) candidates_.push_back({gain, {first, second}, {a, d, b, c}});
-}
-
-void Joiner::collect() {
+void Pairing::connect() {
   struct Side {
-    int from, to;
-    size_t triangle;
+    int low, high, polygon;
+    size_t place;
   };
   std::vector<Side> sides;
+  neighbors_.assign(polygons_.size(), {-1, -1, -1, -1});
   faces_at_.assign(network_.graph.n_nodes(), 0);
-  for (size_t t = 0; t < polygons_.size(); ++t)
-    for (size_t i = 0; i < polygons_[t].size(); ++i) {
-      const int from = polygons_[t][i], to = polygons_[t][(i + 1) % polygons_[t].size()];
+  for (size_t p = 0; p < polygons_.size(); ++p)
+    for (size_t i = 0; i < polygons_[p].size(); ++i) {
+      const int from = polygons_[p][i], to = polygons_[p][(i + 1) % polygons_[p].size()];
       ++faces_at_[at(from)];
-      if (polygons_[t].size() == 3) sides.push_back({from, to, t});
+      if (polygons_[p].size() <= 4)
+        sides.push_back({std::min(from, to), std::max(from, to), static_cast<int>(p), i});
     }
   std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
-    const auto key = [](const Side& s) {
-      return std::make_pair(std::min(s.from, s.to), std::max(s.from, s.to));
-    };
-    return key(x) != key(y) ? key(x) < key(y) : x.from < y.from;
+    if (x.low != y.low) return x.low < y.low;
+    return x.high != y.high ? x.high < y.high : x.polygon < y.polygon;
   });
-  for (size_t i = 0; i + 1 < sides.size(); ++i)
-    if (sides[i].from == sides[i + 1].to && sides[i].to == sides[i + 1].from)
-      consider(sides[i].triangle, sides[i + 1].triangle, sides[i].from, sides[i].to);
+  for (size_t i = 0; i + 1 < sides.size(); ++i) {
+    const Side &x = sides[i], &y = sides[i + 1];
+    if (x.low != y.low || x.high != y.high || !may_go(x.low, x.high)) continue;
+    neighbors_[at(x.polygon)][x.place] = y.polygon;
+    neighbors_[at(y.polygon)][y.place] = x.polygon;
+  }
 }
 
-// Triangles with the fewest possible partners choose first, so that few are left over (Karp and Sipser 1981).
-void Joiner::match() {
-  std::vector<std::vector<size_t>> options(polygons_.size());
-  for (size_t c = 0; c < candidates_.size(); ++c)
-    for (const size_t t : candidates_[c].triangle) options[t].push_back(c);
-  std::vector<char> open(candidates_.size(), 1);
-  std::vector<std::vector<size_t>> waiting(4);
-  const auto count = [&](size_t t) {
-    return static_cast<size_t>(
-        std::count_if(options[t].begin(), options[t].end(), [&](size_t c) { return open[c]; }));
-  };
-  for (size_t t = options.size(); t-- > 0;)
-    if (!options[t].empty()) waiting[options[t].size()].push_back(t);
-  for (size_t level = 1; level < waiting.size();) {
-    if (waiting[level].empty()) {
-      ++level;
-      continue;
-    }
-    const size_t t = waiting[level].back();
-    waiting[level].pop_back();
-    if (count(t) != level) continue;  // it has changed since, and waits elsewhere
-    size_t best = candidates_.size();
-    for (const size_t c : options[t])
-      if (open[c] && (best == candidates_.size() || candidates_[c].gain > candidates_[best].gain)) best = c;
-    const Candidate& chosen = candidates_[best];
-    open[best] = 0;
-    const int a = chosen.quad[0], b = chosen.quad[2];
-    const bool keeps_valence = can_lose_an_edge(a) && can_lose_an_edge(b);
-    if (keeps_valence) {
-      --faces_at_[at(a)];
-      --faces_at_[at(b)];
-      polygons_[chosen.triangle[0]].assign(chosen.quad.begin(), chosen.quad.end());
-      polygons_[chosen.triangle[1]].clear();
-    }
-    for (const size_t triangle : chosen.triangle)
-      for (const size_t c : options[triangle]) {
-        if (keeps_valence) open[c] = 0;
-        for (const size_t other : candidates_[c].triangle) {
-          const size_t left = count(other);
-          if (left == 0) continue;
-          waiting[left].push_back(other);
-          level = std::min(level, left);
-        }
-      }
+bool Pairing::may_go(int a, int b) const {
+  const int edge = network_.graph.find_edge(a, b);
+  if (edge >= 0) return join_lines_ && is_line(network_.graph.edge(edge).kind);
+  return network_.origins[at(a)] != Origin::isotropic || network_.origins[at(b)] != Origin::isotropic;
+}
+
+std::vector<Candidate> Pairing::find_paths() const {
+  std::vector<Candidate> candidates;
+  std::vector<int> path;
+  for (size_t p = 0; p < polygons_.size(); ++p) {
+    if (polygons_[p].size() != 3) continue;
+    path.assign(1, static_cast<int>(p));
+    extend(path, candidates);
   }
+  return candidates;
+}
+
+void Pairing::extend(std::vector<int>& path, std::vector<Candidate>& candidates) const {
+  const int last = path.back();
+  for (size_t i = 0; i < polygons_[at(last)].size(); ++i) {
+    const int next = neighbors_[at(last)][i];
+    if (next < 0 || std::find(path.begin(), path.end(), next) != path.end()) continue;
+    path.push_back(next);
+    if (polygons_[at(next)].size() == 3) {
+      if (path.front() < next) candidates.push_back({path, 0, {}});
+    } else if (static_cast<int>(path.size()) <= max_between_ + 1) {
+      extend(path, candidates);
+    }
+    path.pop_back();
+  }
+}
+
+// The corners around the polygons of a path; none if one of them would be passed twice.
+RegionCorners Pairing::around(const std::vector<int>& path) const {
+  Polygon ring = polygons_[at(path.front())];
+  for (size_t i = 1; i < path.size(); ++i) {
+    const Polygon& before = polygons_[at(path[i - 1])];
+    const Polygon& next = polygons_[at(path[i])];
+    size_t side = 0;
+    while (neighbors_[at(path[i - 1])][side] != path[i]) ++side;
+    const int a = before[side], b = before[(side + 1) % before.size()];
+    const auto start = static_cast<size_t>(std::find(next.begin(), next.end(), a) - next.begin());
+    auto place = std::find(ring.begin(), ring.end(), b) - ring.begin();
+    for (size_t k = 1; next[(start + k) % next.size()] != b; ++k, ++place)
+      ring.insert(ring.begin() + place, next[(start + k) % next.size()]);
+  }
+  RegionCorners corners;
+  Polygon sorted = ring;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return corners;
+  for (const int n : ring) corners.add(network_, n);
+  corners.loop = ring.size();
+  for (size_t i = 1; i + 1 < ring.size(); ++i)
+    corners.normal +=
+        cross(corners.position[i] - corners.position[0], corners.position[i + 1] - corners.position[0]);
+  return corners;
+}
+
+double Pairing::cost_of(const RegionCorners& corners, const std::vector<Polygon>& pieces) const {
+  double sum = 0;
+  for (const Polygon& p : pieces)
+    sum += p.size() == 3 ? judge_.triangle_cost(corners, p[0], p[1], p[2])
+                         : judge_.quad_cost(corners, {p[0], p[1], p[2], p[3]});
+  return sum;
+}
+
+double Pairing::worth_of_lines(const RegionCorners& corners, const std::vector<Polygon>& before,
+                               const std::vector<Polygon>& after) const {
+  const auto chords = [&](const std::vector<Polygon>& pieces) {
+    std::vector<std::pair<int, int>> result;
+    for (const Polygon& p : pieces)
+      for (size_t i = 0; i < p.size(); ++i) {
+        const int a = p[i], b = p[(i + 1) % p.size()];
+        if (a < b && !corners.is_side(a, b) && !corners.is_side(b, a)) result.emplace_back(a, b);
+      }
+    return result;
+  };
+  const auto kept = chords(after);
+  double sum = 0;
+  for (const auto& chord : chords(before))
+    if (std::find(kept.begin(), kept.end(), chord) == kept.end() &&
+        network_.graph.find_edge(corners.node[at(chord.first)], corners.node[at(chord.second)]) >= 0)
+      sum += line_worth;
+  return sum;
+}
+
+void Pairing::evaluate(Candidate& candidate) const {
+  const RegionCorners corners = around(candidate.path);
+  if (corners.loop == 0) return;
+  std::vector<Polygon> before;
+  for (const int p : candidate.path) {
+    before.emplace_back();
+    for (const int n : polygons_[at(p)])
+      before.back().push_back(
+          static_cast<int>(std::find(corners.node.begin(), corners.node.end(), n) - corners.node.begin()));
+  }
+  std::vector<Polygon> after = best_partition(corners, judge_);
+  const double cost = cost_of(corners, after);
+  candidate.gain = cost_of(corners, before) - cost - worth_of_lines(corners, before, after);
+  if (after.empty() || after.size() >= before.size() || cost > folded_cost) candidate.gain = 0;
+  for (Polygon& p : after)
+    for (int& i : p) i = corners.node[at(i)];
+  candidate.replacement = std::move(after);
+}
+
+bool Pairing::on_border(int node) const {
+  const auto& graph = network_.graph;
+  for (int e = graph.first_edge(node); e >= 0; e = graph.next_edge(e, node))
+    if (graph.edge(e).kind == static_cast<int>(EdgeKind::border)) return true;
+  return false;
+}
+
+// Three polygons are to be left at a node inside, and one on the border.
+bool Pairing::keeps_valence(const Candidate& candidate) {
+  const auto change = [&](int by_old) {
+    for (const int p : candidate.path)
+      for (const int n : polygons_[at(p)]) faces_at_[at(n)] += by_old;
+    for (const Polygon& p : candidate.replacement)
+      for (const int n : p) faces_at_[at(n)] -= by_old;
+  };
+  change(-1);
+  for (const Polygon& p : candidate.replacement)
+    for (const int n : p)
+      if (faces_at_[at(n)] < 3 && !on_border(n)) {
+        change(1);
+        return false;
+      }
+  return true;
+}
+
+size_t Pairing::apply(std::vector<Candidate>& candidates) {
+  std::vector<size_t> order;
+  for (size_t c = 0; c < candidates.size(); ++c)
+    if (candidates[c].gain > least_gain) order.push_back(c);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t x, size_t y) { return candidates[x].gain > candidates[y].gain; });
+  std::vector<char> changed(polygons_.size(), 0);
+  size_t applied = 0;
+  for (const size_t c : order) {
+    const Candidate& candidate = candidates[c];
+    const auto taken = [&](int p) { return changed[at(p)] != 0; };
+    if (std::any_of(candidate.path.begin(), candidate.path.end(), taken) || !keeps_valence(candidate))
+      continue;
+    for (size_t i = 0; i < candidate.path.size(); ++i) {
+      const auto p = at(candidate.path[i]);
+      changed[p] = 1;
+      if (i < candidate.replacement.size())
+        polygons_[p] = candidate.replacement[i];
+      else
+        polygons_[p].clear();
+    }
+    ++applied;
+  }
+  polygons_.erase(
+      std::remove_if(polygons_.begin(), polygons_.end(), [](const Polygon& p) { return p.empty(); }),
+      polygons_.end());
+  return applied;
 }
 
 }  // namespace
 
-void join_pairs(std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
-                const PolygonJudge& judge, bool join_lines) {
-  Joiner(polygons, network, judge, join_lines).run();
+void pair_triangles(std::vector<Polygon>& polygons, const NetworkGraph& network, const PolygonJudge& judge,
+                    bool join_lines, int max_between) {
+  Pairing(polygons, network, judge, join_lines, max_between).run();
 }
 
 }  // namespace anisomesh::detail

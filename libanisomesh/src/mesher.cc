@@ -166,7 +166,7 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
   auto set = detail::extract_polygons(
       network, surface, locator, normals, judge,
       {{options.max_degree, options.convex}, options.cell_tolerance * epsilon, options.flip_edges});
-  if (options.max_degree == 4) detail::join_pairs(set.polygons, network, judge, options.join_lines);
+  if (options.max_degree == 4) detail::pair_triangles(set.polygons, network, judge, options.join_lines);
   local.added_samples = set.added_samples;
   local.dropped_samples = set.dropped_samples;
   local.convexity_splits = set.convexity_splits;

@@ -11,9 +11,9 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double degree = pi / 180;
 
 // Weights of the costs, found on the real meshes (docs/mesher.md).
-constexpr double triangle_base = 0.8;  // two triangles instead of one quad of the same shape cost more
+constexpr double triangle_base = 1.4;  // two triangles are worth avoiding unless the quad is badly shaped
 constexpr double shape_weight = 2;
-constexpr double error_weight = 0.3;
+constexpr double error_weight = 0.6;
 constexpr double max_error_ratio = 10;
 constexpr double bent = 3;         // a quad bent too far: worse than two good triangles
 constexpr double folded = 1e3;     // only where nothing else is left
@@ -36,6 +36,18 @@ double angle_cost(double angle) {
 }
 
 }  // namespace
+
+void RegionCorners::add(const NetworkGraph& network, int n) {
+  const auto& graph = network.graph;
+  bool on_feature = false;
+  for (int e = graph.first_edge(n); e >= 0; e = graph.next_edge(e, n))
+    on_feature |= graph.edge(e).kind == static_cast<int>(EdgeKind::feature);
+  node.push_back(n);
+  uv.push_back(graph.uv(n));
+  position.push_back(network.positions[at(n)]);
+  face.push_back(network.points[at(n)].face);
+  corner_normal.push_back(on_feature ? Vec3d(0, 0, 0) : network.normals[at(n)]);
+}
 
 PolygonJudge::PolygonJudge(const SurfaceRef& surface, const UvLocator& locator, const SurfaceNormals& normals,
                            const JudgeOptions& options)

@@ -5,8 +5,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "surface_normals.hh"
-#include "uv_locator.hh"
+#include "network_graph.hh"
 
 namespace anisomesh::detail {
 
@@ -20,6 +19,7 @@ struct RegionCorners {
   size_t loop = 0;                         ///< so many of them, the first, go around it
   Vec3d normal{0, 0, 0};                   ///< unit, of the surface inside the region
   size_t size() const { return node.size(); }
+  void add(const NetworkGraph& network, int n);
   /// Whether b follows a on the border of the region.
   bool is_side(int a, int b) const {
     const int n = static_cast<int>(loop);

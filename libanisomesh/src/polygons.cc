@@ -63,7 +63,6 @@ class Extractor {
   void gather_probes();
   void outline(Flooded& flooded) const;
   std::vector<int> border_of(const Flooded& flooded, bool& simple) const;
-  void add_corner(RegionCorners& corners, int node) const;
   void set_normal(Flooded& flooded) const;
   void append(const Region& region, RegionPolygons& result, PolygonSet& set);
   // A sample that no edge leads to; others are part of the network already.
@@ -210,18 +209,6 @@ std::vector<int> Extractor::border_of(const Flooded& flooded, bool& simple) cons
   return loop;
 }
 
-void Extractor::add_corner(RegionCorners& corners, int node) const {
-  corners.node.push_back(node);
-  corners.uv.push_back(network_.graph.uv(node));
-  corners.position.push_back(network_.positions[at(node)]);
-  corners.face.push_back(network_.points[at(node)].face);
-  const auto& graph = network_.graph;
-  bool on_feature = false;
-  for (int e = graph.first_edge(node); e >= 0; e = graph.next_edge(e, node))
-    on_feature |= graph.edge(e).kind == static_cast<int>(EdgeKind::feature);
-  corners.corner_normal.push_back(on_feature ? Vec3d(0, 0, 0) : network_.normals[at(node)]);
-}
-
 // One normal for the region: that of the surface in the middle of its triangles, by their size in space.
 void Extractor::set_normal(Flooded& flooded) const {
   Vec3d& normal = flooded.region.corners.normal;
@@ -240,7 +227,7 @@ void Extractor::set_normal(Flooded& flooded) const {
 void Extractor::outline(Flooded& flooded) const {
   Region& region = flooded.region;
   const std::vector<int> loop = border_of(flooded, region.simple);
-  for (const int n : loop) add_corner(region.corners, n);
+  for (const int n : loop) region.corners.add(network_, n);
   region.corners.loop = region.simple ? loop.size() : 0;
   std::vector<std::array<int, 2>> index;  // node, corner
   for (size_t i = 0; i < loop.size(); ++i) index.push_back({loop[i], static_cast<int>(i)});
@@ -252,7 +239,7 @@ void Extractor::outline(Flooded& flooded) const {
                                        std::array<int, 2>{triangles_[at(t)].node[k], -1}))[1];
     region.triangles.push_back(triangle);
   }
-  for (const int n : flooded.samples) add_corner(region.corners, n);
+  for (const int n : flooded.samples) region.corners.add(network_, n);
   region.isotropic = flooded.samples.size();
   set_normal(flooded);
 }
