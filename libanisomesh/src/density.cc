@@ -24,6 +24,7 @@ void DensityOptions::validate() const {
   require(adaptation >= 0 && adaptation <= 1, "adaptation", "in [0, 1]", adaptation);
   require(std::isfinite(max_spacing_fraction) && max_spacing_fraction > 0, "max_spacing_fraction", "above 0",
           max_spacing_fraction);
+  require(std::isfinite(max_slope) && max_slope > 0, "max_slope", "above 0", max_slope);
 }
 
 double chord_spacing(double curvature, double epsilon) {

@@ -42,8 +42,8 @@ struct ArcPoint {
 class LineIndex {
  public:
   virtual ~LineIndex() = default;
-  /// Nearest line and fence within `bound` (model units), leaving out the part of line `own` with its arc in
-  /// [from, to].
+  /// Nearest line within `bound` (model units) and nearest fence nearer than it, leaving out the part of line
+  /// `own` with its arc in [from, to].
   virtual Neighbourhood nearest(const SurfacePoint& at, double bound, int own = -1, double from = 0,
                                 double to = 0) = 0;
   virtual void enter(int line, const std::vector<ArcPoint>& points) = 0;
@@ -85,6 +85,8 @@ class Domain {
   /// The nearest umbilic within a third of the spacing of a kind, if there is one.
   virtual NearUmbilic umbilic_near(LineKind kind, const SurfacePoint& at) const = 0;
 
+  /// The faces that a disc reaches without crossing a border or feature.
+  virtual std::vector<int> faces_within(const SurfacePoint& at, double radius) const = 0;
   virtual size_t n_faces() const = 0;
   virtual double area(OpenMesh::FaceHandle face) const = 0;
   virtual std::unique_ptr<LineIndex> make_index() const = 0;

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <queue>
 
 #include "anisomesh/lines.hh"
@@ -27,18 +29,18 @@ struct Candidate {
 
 class SamplePlacement {
  public:
-  SamplePlacement(const detail::Domain& domain, const LineNetwork& network, unsigned seed)
-      : domain_(domain), index_(domain.make_index()), sampler_(domain, seed) {
-    for (const Line& line : network.lines) enter(line);
-  }
+  SamplePlacement(const detail::Domain& domain, unsigned seed)
+      : domain_(domain), index_(domain.make_index()), sampler_(domain, seed) {}
 
-  std::vector<SurfacePoint> from_umbilics();
-  std::vector<SurfacePoint> random(const Progress& progress);
+  std::vector<Candidate> umbilic_candidates(const LineNetwork& network) const;
+  std::vector<Candidate> random_candidates();
+  /// Enters the lines as far as a candidate can see them.
+  void enter_lines(const LineNetwork& network, const std::vector<const std::vector<Candidate>*>& candidates);
+  std::vector<SurfacePoint> choose(std::vector<Candidate> candidates, bool umbilics);
 
  private:
-  void enter(const Line& line);
+  void enter(const Line& line, const std::vector<char>& near);
   double misfit(const SurfacePoint& at, bool umbilic);
-  std::vector<SurfacePoint> choose(std::vector<Candidate> candidates, bool umbilics);
 
   const detail::Domain& domain_;
   std::unique_ptr<detail::LineIndex> index_;
@@ -46,25 +48,47 @@ class SamplePlacement {
   int next_id_ = 0;
 };
 
-void SamplePlacement::enter(const Line& line) {
+void SamplePlacement::enter_lines(const LineNetwork& network,
+                                  const std::vector<const std::vector<Candidate>*>& candidates) {
+  std::vector<char> near(domain_.n_faces(), 0);
+  for (const auto* list : candidates)
+    for (const Candidate& candidate : *list)
+      for (const int f :
+           domain_.faces_within(candidate.point, 1.5 * domain_.isotropic_spacing(candidate.point)))
+        near[static_cast<size_t>(f)] = 1;
+  for (const Line& line : network.lines) enter(line, near);
+}
+
+// Enters the runs of a line that have an end of a segment in a face that is near.
+void SamplePlacement::enter(const Line& line, const std::vector<char>& near) {
   const auto at_fence = [](LineEnd reason) {
     return reason == LineEnd::border || reason == LineEnd::feature;
   };
   // What ends at a fence is entered without its last point, so that it does not cross the fence by rounding.
   const size_t first = at_fence(line.begin_reason) ? 1 : 0;
   const size_t last = line.points.size() - (at_fence(line.end_reason) ? 1 : 0);
-  std::vector<detail::ArcPoint> points;
-  for (size_t i = first; i < last; ++i) points.push_back({line.points[i], static_cast<double>(i)});
-  if (line.closed && !points.empty()) points.push_back({points.front().point, static_cast<double>(last)});
-  index_->enter(next_id_++, points);
+  const auto is_near = [&](size_t i) { return near[static_cast<size_t>(line.points[i].face.idx())] != 0; };
+  std::vector<detail::ArcPoint> run;
+  for (size_t i = first; i < last; ++i) {
+    const bool wanted = is_near(i) || (i > first && is_near(i - 1)) || (i + 1 < last && is_near(i + 1));
+    if (wanted) run.push_back({line.points[i], static_cast<double>(i)});
+    if ((!wanted || i + 1 == last) && !run.empty()) {
+      index_->enter(next_id_, run);
+      run.clear();
+    }
+  }
+  if (line.closed && (is_near(first) || is_near(last - 1)))
+    index_->enter(next_id_, {{line.points[last - 1], static_cast<double>(last - 1)},
+                             {line.points[first], static_cast<double>(last)}});
+  ++next_id_;
 }
 
 // |actual - wanted| / wanted; infinite where a sample would be too near to what is there.
 double SamplePlacement::misfit(const SurfacePoint& at, bool umbilic) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double wanted = domain_.isotropic_spacing(at);
-  const auto near = index_->nearest(at, 2 * wanted);
-  double actual = std::min(2 * wanted, near.fence.distance);
+  const auto near = index_->nearest(at, 1.5 * wanted);
+  double actual = std::min(1.5 * wanted, near.fence.distance);
   if (umbilic && near.line.distance < kNearestSample * wanted) {
     if (near.line.distance < kNearestLine * wanted && near.line.distance > kLineEnd * wanted) return kNever;
   } else {
@@ -96,17 +120,29 @@ std::vector<SurfacePoint> SamplePlacement::choose(std::vector<Candidate> candida
   return chosen;
 }
 
-std::vector<SurfacePoint> SamplePlacement::from_umbilics() {
+// Umbilics where two or more lines end have their vertex from these already; a sample would only cut the
+// quads around it into triangles.
+std::vector<Candidate> SamplePlacement::umbilic_candidates(const LineNetwork& network) const {
+  using Key = std::array<double, 4>;
+  const auto key = [](const SurfacePoint& p) {
+    return Key{static_cast<double>(p.face.idx()), p.barycentric[0], p.barycentric[1], p.barycentric[2]};
+  };
+  std::map<Key, int> ends;
+  for (const Line& line : network.lines) {
+    if (line.begin_reason == LineEnd::umbilic) ++ends[key(line.points.front())];
+    if (line.end_reason == LineEnd::umbilic) ++ends[key(line.points.back())];
+  }
   std::vector<Candidate> candidates;
-  for (const auto& umbilic : domain_.umbilics()) candidates.push_back({0, candidates.size(), umbilic.point});
-  return choose(std::move(candidates), true);
+  for (const auto& umbilic : domain_.umbilics()) {
+    const auto found = ends.find(key(umbilic.point));
+    if (found == ends.end() || found->second < 2) candidates.push_back({0, candidates.size(), umbilic.point});
+  }
+  return candidates;
 }
 
-// Where the surface is flat or spherical: as many random points as it takes to leave no gap, and the best of
-// them, one after the other.
-std::vector<SurfacePoint> SamplePlacement::random(const Progress& progress) {
+// Where the surface is flat or spherical: more points than samples are wanted, so that the best of them fit.
+std::vector<Candidate> SamplePlacement::random_candidates() {
   constexpr double kCandidates = 30;  // for each sample wanted
-  // Candidates are as dense as samples are to be: a share of each face's own.
   std::vector<Candidate> candidates;
   double share = 0;
   for (size_t f = 0; f < domain_.n_faces(); ++f) {
@@ -119,8 +155,7 @@ std::vector<SurfacePoint> SamplePlacement::random(const Progress& progress) {
       if (domain_.isotropic(at)) candidates.push_back({0, candidates.size(), at});
     }
   }
-  report_progress(progress, 0.5);
-  return choose(std::move(candidates), false);
+  return candidates;
 }
 
 }  // namespace
@@ -132,11 +167,14 @@ IsotropicReport place_isotropic_samples(const SurfaceRef& surface, const TraceOp
   LineNetwork network = read_lines(surface);
   const detail::PlaneDomain domain(surface, detail::read_plane_input(surface), options.density);
   report_progress(progress, 0);
-  SamplePlacement placement(domain, network, options.seed);
-  network.isotropic_samples = placement.from_umbilics();
+  SamplePlacement placement(domain, options.seed);
+  auto umbilics = placement.umbilic_candidates(network), anywhere = placement.random_candidates();
+  placement.enter_lines(network, {&umbilics, &anywhere});
+  report_progress(progress, 0.3);
+  network.isotropic_samples = placement.choose(std::move(umbilics), true);
   IsotropicReport report;
   report.from_umbilics = network.isotropic_samples.size();
-  const auto random = placement.random(progress);
+  const auto random = placement.choose(std::move(anywhere), false);
   report.random = random.size();
   network.isotropic_samples.insert(network.isotropic_samples.end(), random.begin(), random.end());
   report_progress(progress, 1);

@@ -9,9 +9,8 @@ namespace anisomesh::detail {
 
 namespace {
 
-constexpr double kNearestSeed = 0.7;  // spacings: a gap narrower than twice this gets no line in its middle
-constexpr double kSeedEvery = 0.5;    // spacings along a line between the seeds beside it
-constexpr double kParallel = 0.94;    // cosine: a fence this parallel to a line counts as a line
+constexpr double kSeedEvery = 0.5;  // spacings along a line between the seeds beside it
+constexpr double kParallel = 0.94;  // cosine: a fence this parallel to a line counts as a line
 
 LineKind other(LineKind kind) { return kind == LineKind::min ? LineKind::max : LineKind::min; }
 
@@ -41,7 +40,7 @@ class Placement {
         options_(options),
         going_on_(going_on),
         index_(domain.make_index()),
-        tracer_(domain, *index_, kind, options.stop_fraction),
+        tracer_(domain, *index_, kind, options),
         sampler_(domain, options.seed) {}
 
   PlacedLines run();
@@ -90,20 +89,20 @@ Seed Placement::seed_at(const Candidate& candidate) const {
   const Reach reach = domain_.walk(candidate.origin, wanted * candidate.across);
   if (reach.blocked || domain_.isotropic(reach.point)) return seed;
   const double spacing = domain_.spacing(kind_, reach.point);
-  double distance = clearance(reach.point, 1.2 * std::max(spacing, wanted));
+  double distance = clearance(reach.point, 1.02 * wanted);
   seed.point = reach.point;
   if (distance < 0.98 * wanted) {
     const double gap = wanted + distance;
-    if (gap < 2 * kNearestSeed * spacing) return seed;
+    if (gap < 2 * options_.seed_fraction * spacing) return seed;
     const Reach middle = domain_.walk(candidate.origin, 0.5 * gap * candidate.across);
     if (middle.blocked || domain_.isotropic(middle.point)) return seed;
     seed.point = middle.point;
-    distance = clearance(middle.point, 1.2 * spacing);
+    distance = clearance(middle.point, 0.55 * gap);
   }
   distance = std::min(distance, wanted);
   const double here = domain_.spacing(kind_, seed.point);
   seed.misfit = std::abs(distance - here) / here;
-  seed.fits = distance >= 0.97 * kNearestSeed * here;
+  seed.fits = distance >= 0.97 * options_.seed_fraction * here;
   return seed;
 }
 
@@ -142,7 +141,7 @@ bool Placement::trace_umbilics() {
   for (const int u : order) {
     const UmbilicPoint& umbilic = umbilics[static_cast<size_t>(u)];
     const double spacing = domain_.spacing(kind_, umbilic.point);
-    if (clearance(umbilic.point, spacing) < kNearestSeed * spacing) continue;
+    if (clearance(umbilic.point, spacing) < options_.seed_fraction * spacing) continue;
     for (const Vec2d& direction : domain_.separatrices(umbilic, kind_))
       if (!keep(tracer_.trace_from_umbilic(u, direction, next_id_))) return false;
   }

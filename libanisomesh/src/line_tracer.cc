@@ -12,9 +12,8 @@ namespace {
 constexpr double kOwnPart = 1.6;        // spacings along the line that do not count as running into itself
 constexpr double kFreeOfUmbilic = 1.0;  // spacings in which lines from one umbilic may be close to each other
 constexpr double kUmbilicReach = 0.12;  // spacings from an umbilic at which a line ends there
-constexpr double kShortest = 1.0;       // spacings of the other kind: a shorter line crosses nothing
 constexpr double kParallel = 0.94;      // cosine: a fence this parallel counts as a line
-constexpr double kParallelFence = 0.45;
+constexpr double kParallelFence = 0.45;  // spacings
 constexpr size_t kStepLimit = 50000;
 constexpr double kPullBack = 1e-3;  // of the last segment: what is entered keeps off the fence it ends at
 
@@ -85,7 +84,7 @@ bool LineTracer::hits_umbilic(Half& half, const TracePoint& head, int umbilic) {
 bool LineTracer::ends_here(Half& half, const TracePoint& head, int id, int umbilic) {
   if (umbilic >= 0 && std::abs(head.arc) < kFreeOfUmbilic) return false;
   const double spacing = domain_.spacing(kind_, head.point);
-  const double stop = stop_fraction_ * spacing;
+  const double stop = options_.stop_fraction * spacing;
   const auto near = index_.nearest(head.point, stop, id, head.arc - kOwnPart, head.arc + kOwnPart);
   if (near.fence.distance < kParallelFence * spacing &&
       std::abs(near.fence.direction | head.direction) > kParallel) {
@@ -154,7 +153,8 @@ void LineTracer::run(Half& half, int id, int umbilic, double crossings_of_other_
       half.reason = LineEnd::umbilic;
       return;
     }
-    if (std::abs(head.crossings) + crossings_of_other_half > kShortest) enter_lagging(half, id, false);
+    if (std::abs(head.crossings) + crossings_of_other_half > options_.min_crossings)
+      enter_lagging(half, id, false);
   }
 }
 
@@ -164,7 +164,7 @@ TracedLine LineTracer::join(Half& forward, Half& backward, int id) {
   const double crossings =
       forward.points.back().crossings - (backward.points.empty() ? 0 : backward.points.back().crossings);
   const bool across = at_fence(forward.reason) && at_fence(backward.reason);
-  if (!across && crossings < kShortest) return line;
+  if (!across && crossings < options_.min_crossings) return line;
   enter_lagging(forward, id, true);
   if (backward.points.size() > 1) enter_lagging(backward, id, true);
 

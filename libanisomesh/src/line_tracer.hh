@@ -25,8 +25,8 @@ struct TracedLine {
 /// one being traced as well, so that it does not run into itself. [ACDLD03, section 3.1.1, 3.1.2]
 class LineTracer {
  public:
-  LineTracer(const Domain& domain, LineIndex& index, LineKind kind, double stop_fraction)
-      : domain_(domain), index_(index), kind_(kind), stop_fraction_(stop_fraction) {}
+  LineTracer(const Domain& domain, LineIndex& index, LineKind kind, const TraceOptions& options)
+      : domain_(domain), index_(index), kind_(kind), options_(options) {}
 
   /// The line through a seed, both ways. Empty points: the line would be too short to be of use, and nothing
   /// was entered.
@@ -59,7 +59,7 @@ class LineTracer {
   const Domain& domain_;
   LineIndex& index_;
   LineKind kind_;
-  double stop_fraction_;
+  const TraceOptions& options_;
 };
 
 }  // namespace anisomesh::detail

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <queue>
+#include <set>
 
 #include "anisomesh/properties.hh"
 #include "anisomesh/smoothing.hh"
@@ -101,7 +102,9 @@ PlaneInput read_plane_input(const SurfaceRef& surface) {
 }
 
 PlaneDomain::PlaneDomain(const SurfaceRef& surface, const PlaneInput& input, const DensityOptions& density)
-    : umbilics_(input.umbilics), density_(density, surface.diagonal(), mean_curvature(surface, input)) {
+    : umbilics_(input.umbilics),
+      max_slope_(density.max_slope),
+      density_(density, surface.diagonal(), mean_curvature(surface, input)) {
   faces_.resize(surface.connectivity().n_faces());
   make_nodes(surface, input);
   make_neighbours(surface);
@@ -162,62 +165,78 @@ void PlaneDomain::make_spacing() {
     node.spacing[static_cast<int>(LineKind::min)] = density_.min_line_spacing(k_min, k_max);
     node.spacing[static_cast<int>(LineKind::max)] = density_.max_line_spacing(k_min, k_max);
   }
+  make_links();
   grade_spacing(static_cast<int>(LineKind::min));
   grade_spacing(static_cast<int>(LineKind::max));
+  links_ = {};
+  links_begin_ = {};
 }
 
-// The largest spacing below the wanted one that changes by at most kSlope of a unit over a unit: lines at the
-// wanted distance on one side of a gap can then also be at the wanted distance on the other.
+// The largest spacing below the wanted one that changes by at most max_slope of a unit over a unit: lines at
+// the wanted distance on one side of a gap can then also be at the wanted distance on the other.
 void PlaneDomain::grade_spacing(int kind) {
-  constexpr double kSlope = 0.3;
-  std::vector<std::vector<std::pair<int, double>>> neighbours(nodes_.size());
+  using Entry = std::pair<double, int>;
+  std::vector<Entry> entries;
+  entries.reserve(nodes_.size());
+  for (size_t i = 0; i < nodes_.size(); ++i)
+    entries.emplace_back(nodes_[i].spacing[kind], static_cast<int>(i));
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue(std::greater<>(), std::move(entries));
+  while (!queue.empty()) {
+    const auto [spacing, i] = queue.top();
+    queue.pop();
+    if (spacing > nodes_[static_cast<size_t>(i)].spacing[kind]) continue;
+    for (int e = links_begin_[static_cast<size_t>(i)]; e < links_begin_[static_cast<size_t>(i) + 1]; ++e) {
+      const Link& link = links_[static_cast<size_t>(e)];
+      double& other = nodes_[static_cast<size_t>(link.node)].spacing[kind];
+      if (other <= spacing + max_slope_ * link.length) continue;
+      other = spacing + max_slope_ * link.length;
+      queue.emplace(other, link.node);
+    }
+  }
+}
+
+// Edges of the triangulation, both ways, by the node they start from.
+void PlaneDomain::make_links() {
+  links_begin_.assign(nodes_.size() + 1, 0);
+  for (const Face& face : faces_)
+    for (const int n : face.node) links_begin_[static_cast<size_t>(n) + 1] += 2;
+  std::partial_sum(links_begin_.begin(), links_begin_.end(), links_begin_.begin());
+  links_.resize(6 * faces_.size());
+  std::vector<int> next(links_begin_.begin(), links_begin_.end() - 1);
   for (const Face& face : faces_)
     for (int i = 0; i < 3; ++i) {
       const int a = face.node[i], b = face.node[(i + 1) % 3];
       const Node &from = nodes_[static_cast<size_t>(a)], &to = nodes_[static_cast<size_t>(b)];
       const double length = (to.uv - from.uv).norm() / (0.5 * (from.scale + to.scale));
-      neighbours[static_cast<size_t>(a)].emplace_back(b, length);
-      neighbours[static_cast<size_t>(b)].emplace_back(a, length);
+      links_[static_cast<size_t>(next[static_cast<size_t>(a)]++)] = {b, length};
+      links_[static_cast<size_t>(next[static_cast<size_t>(b)]++)] = {a, length};
     }
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (size_t i = 0; i < nodes_.size(); ++i) queue.emplace(nodes_[i].spacing[kind], static_cast<int>(i));
-  while (!queue.empty()) {
-    const auto [spacing, i] = queue.top();
-    queue.pop();
-    if (spacing > nodes_[static_cast<size_t>(i)].spacing[kind]) continue;
-    for (const auto& [j, length] : neighbours[static_cast<size_t>(i)]) {
-      double& other = nodes_[static_cast<size_t>(j)].spacing[kind];
-      if (other <= spacing + kSlope * length) continue;
-      other = spacing + kSlope * length;
-      queue.emplace(other, j);
+}
+
+std::vector<int> PlaneDomain::faces_within(const SurfacePoint& at, double radius) const {
+  const Vec2d centre = plane_position(at);
+  const double plane_radius = radius * scale(at);
+  std::vector<int> found{at.face.idx()};
+  // The faces of a disc are few beside those of the mesh: a sorted list of the seen beats a flag for each.
+  std::set<int> seen{at.face.idx()};
+  for (size_t next_visited = 0; next_visited < found.size(); ++next_visited) {
+    const Face& current = faces_[static_cast<size_t>(found[next_visited])];
+    for (int i = 0; i < 3; ++i) {
+      const int next = current.across[i];
+      if (next < 0) continue;
+      const Vec2d a = node(current, (i + 1) % 3).uv, ab = node(current, (i + 2) % 3).uv - a;
+      const double t = std::clamp(((centre - a) | ab) / ab.sqrnorm(), 0.0, 1.0);
+      if ((a + t * ab - centre).norm() <= plane_radius && seen.insert(next).second) found.push_back(next);
     }
   }
+  return found;
 }
 
 void PlaneDomain::register_umbilics() {
-  std::vector<int> seen(faces_.size(), -1), stack;
   for (size_t u = 0; u < umbilics_.size(); ++u) {
     const SurfacePoint& at = umbilics_[u].point;
-    const Vec2d centre = plane_position(at);
-    const double radius = std::max(spacing(LineKind::min, at), spacing(LineKind::max, at)) * scale(at) / 3;
-    stack.assign(1, at.face.idx());
-    seen[static_cast<size_t>(at.face.idx())] = static_cast<int>(u);
-    while (!stack.empty()) {
-      const int f = stack.back();
-      stack.pop_back();
-      near_umbilics_.emplace_back(f, static_cast<int>(u));
-      const Face& current = faces_[static_cast<size_t>(f)];
-      for (int i = 0; i < 3; ++i) {
-        const int next = current.across[i];
-        if (next < 0 || seen[static_cast<size_t>(next)] == static_cast<int>(u)) continue;
-        const Vec2d a = node(current, (i + 1) % 3).uv, ab = node(current, (i + 2) % 3).uv - a;
-        const double t = std::clamp(((centre - a) | ab) / ab.sqrnorm(), 0.0, 1.0);
-        if ((a + t * ab - centre).norm() > radius) continue;
-        seen[static_cast<size_t>(next)] = static_cast<int>(u);
-        stack.push_back(next);
-      }
-    }
+    const double reach = std::max(spacing(LineKind::min, at), spacing(LineKind::max, at)) / 3;
+    for (const int f : faces_within(at, reach)) near_umbilics_.emplace_back(f, static_cast<int>(u));
   }
   std::sort(near_umbilics_.begin(), near_umbilics_.end());
 }
@@ -414,7 +433,7 @@ class PlaneIndex final : public LineIndex {
     const double scale = domain_.scale(at);
     const Vec2d point = domain_.plane_position(at);
     // The stretch may differ between here and there; a margin keeps what is near by their mean.
-    const auto found = proximity_.nearest(point, 1.3 * bound * scale, {own, from, to});
+    const auto found = proximity_.nearest(point, 1.15 * bound * scale, {own, from, to});
     return {as_neighbour(found.line, point, scale), as_neighbour(found.fence, point, scale)};
   }
 

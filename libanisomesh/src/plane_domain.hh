@@ -34,6 +34,7 @@ class PlaneDomain final : public Domain {
   std::vector<Vec2d> separatrices(const UmbilicPoint& umbilic, LineKind kind) const override;
   const std::vector<UmbilicPoint>& umbilics() const override { return umbilics_; }
   NearUmbilic umbilic_near(LineKind kind, const SurfacePoint& at) const override;
+  std::vector<int> faces_within(const SurfacePoint& at, double radius) const override;
   size_t n_faces() const override { return faces_.size(); }
   double area(OpenMesh::FaceHandle face) const override;
   std::unique_ptr<LineIndex> make_index() const override;
@@ -51,6 +52,10 @@ class PlaneDomain final : public Domain {
     Vec3d tensor{0, 0, 0};
     double spacing[2] = {0, 0};  // by LineKind
   };
+  struct Link {
+    int node = 0;
+    double length = 0;
+  };
   // The edge `across[i]` is opposite corner i.
   struct Face {
     int node[3] = {0, 0, 0};
@@ -60,6 +65,7 @@ class PlaneDomain final : public Domain {
   void make_nodes(const SurfaceRef& surface, const PlaneInput& input);
   void make_neighbours(const SurfaceRef& surface);
   void make_spacing();
+  void make_links();
   void grade_spacing(int kind);
   void register_umbilics();
   Vec3d barycentric(const Face& face, const Vec2d& point) const;
@@ -70,8 +76,11 @@ class PlaneDomain final : public Domain {
 
   std::vector<Node> nodes_;
   std::vector<Face> faces_;
+  std::vector<Link> links_;  // only while spacings are graded
+  std::vector<int> links_begin_;
   std::vector<UmbilicPoint> umbilics_;
   std::vector<std::pair<int, int>> near_umbilics_;  // (face, umbilic), ascending
+  double max_slope_;
   Density density_;
 };
 

@@ -63,6 +63,11 @@ void TraceOptions::validate() const {
   density.validate();
   if (!(stop_fraction > 0 && stop_fraction < 1))
     throw InvalidOption("stop_fraction must be above 0 and below 1, but is " + std::to_string(stop_fraction));
+  if (!(seed_fraction >= stop_fraction && seed_fraction <= 1))
+    throw InvalidOption("seed_fraction must be from stop_fraction to 1, but is " +
+                        std::to_string(seed_fraction));
+  if (!(min_crossings >= 0))
+    throw InvalidOption("min_crossings must not be negative, but is " + std::to_string(min_crossings));
 }
 
 TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& options, const Progress& progress) {

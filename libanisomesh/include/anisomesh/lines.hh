@@ -39,9 +39,12 @@ void write_lines(const SurfaceRef& surface, const LineNetwork& network);
 struct TraceOptions {
   DensityOptions density;
   double stop_fraction =
-      0.5;  ///< a line ends when nearer to one of its kind than this fraction of the spacing; (0, 1)
-  unsigned seed = 1;      ///< of the random coverage check
-  void validate() const;  ///< \throw InvalidOption
+      0.3;  ///< a line ends when nearer to one of its kind than this fraction of the spacing; (0, 1)
+  double seed_fraction =
+      0.8;  ///< none starts nearer to one of its kind than this fraction of the spacing; [stop_fraction, 1]
+  double min_crossings = 1.5;  ///< a shorter line, in spacings of the other kind, is dropped; >= 0
+  unsigned seed = 1;           ///< of the random coverage check
+  void validate() const;       ///< \throw InvalidOption
 };
 
 struct TraceReport {

@@ -117,18 +117,19 @@ void Proximity::Impl::visit_face(FaceHandle face, const Vec2d& point, const Igno
                                  PlaneNeighbourhood& best) {
   if (any_points) consider_points(face, point, best);
   for (int i = 0; i < 3; ++i) {
+    const bool constrained = face->is_constrained(i);
+    const FaceHandle next = face->neighbor(i);
+    if (!constrained && next->info().visit == visit) continue;
     const Vec2d a = as_vector(face->vertex(Triangulation::ccw(i))->point());
     const Vec2d b = as_vector(face->vertex(Triangulation::cw(i))->point());
     const double parameter = nearest_parameter(point, a, b);
     const double distance2 = (a + parameter * (b - a) - point).sqrnorm();
-    const double bound = std::max(best.line.distance, best.fence.distance);
-    if (distance2 > bound * bound) continue;
-    if (face->is_constrained(i)) {
+    if (distance2 > best.line.distance * best.line.distance) continue;
+    if (constrained) {
       consider_edge(face, i, distance2, parameter, ignore, best);
       continue;
     }
-    const FaceHandle next = face->neighbor(i);
-    if (next->info().visit == visit || triangulation.is_infinite(next)) continue;
+    if (triangulation.is_infinite(next)) continue;
     next->info().visit = visit;
     stack.push_back(next);
   }
@@ -181,8 +182,9 @@ PlaneNeighbourhood Proximity::nearest(const Vec2d& point, double bound, const Ig
     }
   }
   constexpr double kNone = std::numeric_limits<double>::infinity();
+  // Fences are searched only as far as the nearest line: which of those beyond it were met is chance.
+  if (best.fence.distance >= best.line.distance) best.fence.distance = kNone;
   if (best.line.distance >= bound) best.line.distance = kNone;
-  if (best.fence.distance >= bound) best.fence.distance = kNone;
   return best;
 }
 

@@ -22,7 +22,7 @@ struct PlaneNeighbour {
 
 struct PlaneNeighbourhood {
   PlaneNeighbour line;   ///< nearest line that is seen from the point
-  PlaneNeighbour fence;  ///< nearest fence that is seen from the point
+  PlaneNeighbour fence;  ///< nearest fence that is seen from the point, if it is nearer than the line
 };
 
 /// What a query leaves out: the part of one line between two values of its arc parameter.
@@ -59,7 +59,7 @@ class Proximity {
   /// Enters a single point as a line of its own.
   void enter_point(int line, const Vec2d& point, double scale);
 
-  /// The nearest line and fence within `bound` that are seen from the point.
+  /// The nearest line within `bound` that is seen from the point, and the nearest fence nearer than it.
   PlaneNeighbourhood nearest(const Vec2d& point, double bound, const Ignore& ignore = {});
 
  private:
