@@ -17,7 +17,9 @@ int main() {
   std::printf("area in the plane over area on the surface: %.3f to %.3f\n", flat.min_area_stretch,
               flat.max_area_stretch);
 
-  const auto smooth = anisomesh::smooth_tensors(mesh);
+  anisomesh::SmoothingOptions options;
+  options.radius_fraction = 0.03;  // the support should reach over a few edges
+  const auto smooth = anisomesh::smooth_tensors(mesh, options);
   std::printf("smoothing changed the tensors by %.1f %%\n", 100 * smooth.mean_change);
 
   const auto uv = anisomesh::require_property(mesh, anisomesh::property::uv);
