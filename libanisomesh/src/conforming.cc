@@ -193,8 +193,8 @@ std::vector<Piece> cut_up(const RegionCorners& region) {
 
 }  // namespace
 
-std::vector<Piece> best_partition(const RegionCorners& region, const PolygonJudge& judge) {
-  return Partition(region, judge, true).run();
+std::vector<Piece> best_partition(const RegionCorners& region, const PolygonJudge& judge, bool quads) {
+  return Partition(region, judge, quads).run();
 }
 
 std::vector<Piece> partition_region(const RegionCorners& region, const PolygonJudge& judge,

@@ -16,9 +16,10 @@ struct PartitionOptions {
 std::vector<std::vector<int>> partition_region(const RegionCorners& region, const PolygonJudge& judge,
                                                const PartitionOptions& options);
 
-/// The partition of the loop into triangles and quads that costs least; empty if there is none, which only
-/// rounding explains. For few corners: all partitions are considered.
-std::vector<std::vector<int>> best_partition(const RegionCorners& region, const PolygonJudge& judge);
+/// The partition of the loop into triangles and, if asked for, quads that costs least; empty if there is
+/// none, which only rounding explains. For few corners: all partitions are considered.
+std::vector<std::vector<int>> best_partition(const RegionCorners& region, const PolygonJudge& judge,
+                                             bool quads);
 
 /// Joins triangles to polygons over their common edges, best first; for regions that are not simple, where a
 /// corner occurs once although the border passes it more than once.

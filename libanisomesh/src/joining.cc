@@ -3,10 +3,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "conforming.hh"
+#include "polygon_adjacency.hh"
 
 namespace anisomesh::detail {
 
@@ -40,7 +40,8 @@ class Pairing {
 
   void run() {
     for (int round = 0; round < max_rounds; ++round) {
-      connect();
+      adjacency_ = PolygonAdjacency(polygons_, network_.graph.n_nodes(),
+                                    [this](int a, int b) { return may_go(a, b); });
       std::vector<Candidate> candidates = find_paths();
       tbb::parallel_for(size_t{0}, candidates.size(), [&](size_t i) { evaluate(candidates[i]); });
       if (apply(candidates) == 0) return;
@@ -48,12 +49,9 @@ class Pairing {
   }
 
  private:
-  void connect();
   std::vector<Candidate> find_paths() const;
   void extend(std::vector<int>& path, std::vector<Candidate>& candidates) const;
   bool may_go(int a, int b) const;
-  RegionCorners around(const std::vector<int>& path) const;
-  double cost_of(const RegionCorners& corners, const std::vector<Polygon>& pieces) const;
   double worth_of_lines(const RegionCorners& corners, const std::vector<Polygon>& before,
                         const std::vector<Polygon>& after) const;
   void evaluate(Candidate& candidate) const;
@@ -66,36 +64,8 @@ class Pairing {
   const PolygonJudge& judge_;
   bool join_lines_;
   int max_between_;
-  std::vector<std::array<int, 4>> neighbors_;  // across the side that begins at the corner of the same place
-  std::vector<int> faces_at_;                  // how many polygons at each node
+  PolygonAdjacency adjacency_;
 };
-
-void Pairing::connect() {
-  struct Side {
-    int low, high, polygon;
-    size_t place;
-  };
-  std::vector<Side> sides;
-  neighbors_.assign(polygons_.size(), {-1, -1, -1, -1});
-  faces_at_.assign(network_.graph.n_nodes(), 0);
-  for (size_t p = 0; p < polygons_.size(); ++p)
-    for (size_t i = 0; i < polygons_[p].size(); ++i) {
-      const int from = polygons_[p][i], to = polygons_[p][(i + 1) % polygons_[p].size()];
-      ++faces_at_[at(from)];
-      if (polygons_[p].size() <= 4)
-        sides.push_back({std::min(from, to), std::max(from, to), static_cast<int>(p), i});
-    }
-  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
-    if (x.low != y.low) return x.low < y.low;
-    return x.high != y.high ? x.high < y.high : x.polygon < y.polygon;
-  });
-  for (size_t i = 0; i + 1 < sides.size(); ++i) {
-    const Side &x = sides[i], &y = sides[i + 1];
-    if (x.low != y.low || x.high != y.high || !may_go(x.low, x.high)) continue;
-    neighbors_[at(x.polygon)][x.place] = y.polygon;
-    neighbors_[at(y.polygon)][y.place] = x.polygon;
-  }
-}
 
 bool Pairing::may_go(int a, int b) const {
   const int edge = network_.graph.find_edge(a, b);
@@ -117,8 +87,9 @@ std::vector<Candidate> Pairing::find_paths() const {
 void Pairing::extend(std::vector<int>& path, std::vector<Candidate>& candidates) const {
   const int last = path.back();
   for (size_t i = 0; i < polygons_[at(last)].size(); ++i) {
-    const int next = neighbors_[at(last)][i];
-    if (next < 0 || std::find(path.begin(), path.end(), next) != path.end()) continue;
+    const int next = adjacency_.neighbor(last, i);
+    if (next < 0 || polygons_[at(next)].size() > 4 || std::find(path.begin(), path.end(), next) != path.end())
+      continue;
     path.push_back(next);
     if (polygons_[at(next)].size() == 3) {
       if (path.front() < next) candidates.push_back({path, 0, {}});
@@ -127,40 +98,6 @@ void Pairing::extend(std::vector<int>& path, std::vector<Candidate>& candidates)
     }
     path.pop_back();
   }
-}
-
-// The corners around the polygons of a path; none if one of them would be passed twice.
-RegionCorners Pairing::around(const std::vector<int>& path) const {
-  Polygon ring = polygons_[at(path.front())];
-  for (size_t i = 1; i < path.size(); ++i) {
-    const Polygon& before = polygons_[at(path[i - 1])];
-    const Polygon& next = polygons_[at(path[i])];
-    size_t side = 0;
-    while (neighbors_[at(path[i - 1])][side] != path[i]) ++side;
-    const int a = before[side], b = before[(side + 1) % before.size()];
-    const auto start = static_cast<size_t>(std::find(next.begin(), next.end(), a) - next.begin());
-    auto place = std::find(ring.begin(), ring.end(), b) - ring.begin();
-    for (size_t k = 1; next[(start + k) % next.size()] != b; ++k, ++place)
-      ring.insert(ring.begin() + place, next[(start + k) % next.size()]);
-  }
-  RegionCorners corners;
-  Polygon sorted = ring;
-  std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return corners;
-  for (const int n : ring) corners.add(network_, n);
-  corners.loop = ring.size();
-  for (size_t i = 1; i + 1 < ring.size(); ++i)
-    corners.normal +=
-        cross(corners.position[i] - corners.position[0], corners.position[i + 1] - corners.position[0]);
-  return corners;
-}
-
-double Pairing::cost_of(const RegionCorners& corners, const std::vector<Polygon>& pieces) const {
-  double sum = 0;
-  for (const Polygon& p : pieces)
-    sum += p.size() == 3 ? judge_.triangle_cost(corners, p[0], p[1], p[2])
-                         : judge_.quad_cost(corners, {p[0], p[1], p[2], p[3]});
-  return sum;
 }
 
 double Pairing::worth_of_lines(const RegionCorners& corners, const std::vector<Polygon>& before,
@@ -184,18 +121,12 @@ double Pairing::worth_of_lines(const RegionCorners& corners, const std::vector<P
 }
 
 void Pairing::evaluate(Candidate& candidate) const {
-  const RegionCorners corners = around(candidate.path);
+  const RegionCorners corners = adjacency_.around(polygons_, candidate.path, network_);
   if (corners.loop == 0) return;
-  std::vector<Polygon> before;
-  for (const int p : candidate.path) {
-    before.emplace_back();
-    for (const int n : polygons_[at(p)])
-      before.back().push_back(
-          static_cast<int>(std::find(corners.node.begin(), corners.node.end(), n) - corners.node.begin()));
-  }
-  std::vector<Polygon> after = best_partition(corners, judge_);
-  const double cost = cost_of(corners, after);
-  candidate.gain = cost_of(corners, before) - cost - worth_of_lines(corners, before, after);
+  const std::vector<Polygon> before = in_corners(corners, polygons_, candidate.path);
+  std::vector<Polygon> after = best_partition(corners, judge_, true);
+  const double cost = judge_.cost(corners, after);
+  candidate.gain = judge_.cost(corners, before) - cost - worth_of_lines(corners, before, after);
   if (after.empty() || after.size() >= before.size() || cost > folded_cost) candidate.gain = 0;
   for (Polygon& p : after)
     for (int& i : p) i = corners.node[at(i)];
@@ -211,17 +142,15 @@ bool Pairing::on_border(int node) const {
 
 // Three polygons are to be left at a node inside, and one on the border.
 bool Pairing::keeps_valence(const Candidate& candidate) {
-  const auto change = [&](int by_old) {
-    for (const int p : candidate.path)
-      for (const int n : polygons_[at(p)]) faces_at_[at(n)] += by_old;
-    for (const Polygon& p : candidate.replacement)
-      for (const int n : p) faces_at_[at(n)] -= by_old;
+  const auto change = [&](int by) {
+    for (const int p : candidate.path) adjacency_.count(polygons_[at(p)], -by);
+    for (const Polygon& p : candidate.replacement) adjacency_.count(p, by);
   };
-  change(-1);
+  change(1);
   for (const Polygon& p : candidate.replacement)
     for (const int n : p)
-      if (faces_at_[at(n)] < 3 && !on_border(n)) {
-        change(1);
+      if (adjacency_.faces_at(n) < 3 && !on_border(n)) {
+        change(-1);
         return false;
       }
   return true;

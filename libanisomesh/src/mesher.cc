@@ -10,7 +10,9 @@
 #include "decimation.hh"
 #include "joining.hh"
 #include "network_graph.hh"
+#include "polygon_output.hh"
 #include "polygons.hh"
+#include "soundness.hh"
 
 namespace anisomesh {
 
@@ -38,78 +40,21 @@ double epsilon_of(const OpenMesh::TriConnectivity& mesh) {
   return mesh.property(require_property(mesh, property::epsilon));
 }
 
-// A sample that was kept to hold a chain near the surface, or a place where lines meet.
-Origin final_origin(const NetworkGraph& network, int node) {
-  const Origin origin = network.origins[at(node)];
-  if (origin != Origin::line && origin != Origin::crossing) return origin;
-  const auto& graph = network.graph;
-  const int first = graph.first_edge(node);
-  if (graph.degree(node) != 2) return Origin::crossing;
-  const int second = graph.next_edge(first, node);
-  return graph.edge(first).kind == graph.edge(second).kind ? Origin::line : Origin::crossing;
+// Polygons that would be folded, concave or without area are given another chance with more samples.
+constexpr size_t max_retries = 4;
+
+// A tolerance, or a share of it; of one that is infinite, a share of a small fraction of the diagonal.
+double limited(double tolerance, double share, const SurfaceRef& surface) {
+  if (share == 1) return tolerance;
+  return share * (std::isfinite(tolerance) ? tolerance : 0.01 * surface.diagonal());
 }
 
-class Output {
- public:
-  Output(const NetworkGraph& network, OpenMesh::PolyMesh& mesh) : network_(network), mesh_(mesh) {
-    mesh_.request_vertex_status();
-    mesh_.request_edge_status();
-    mesh_.request_face_status();
-  }
-  void add(const std::vector<std::vector<int>>& polygons);
-
- private:
-  OpenMesh::VertexHandle vertex_of(int node);
-
-  const NetworkGraph& network_;
-  OpenMesh::PolyMesh& mesh_;
-  std::vector<OpenMesh::VertexHandle> vertices_;
-  std::vector<int> nodes_;
-};
-
-OpenMesh::VertexHandle Output::vertex_of(int node) {
-  OpenMesh::VertexHandle& v = vertices_[at(node)];
-  if (!v.is_valid()) {
-    v = mesh_.add_vertex(OpenMesh::PolyMesh::Point(network_.positions[at(node)]));
-    nodes_.push_back(node);
-  }
-  return v;
-}
-
-void Output::add(const std::vector<std::vector<int>>& polygons) {
-  vertices_.assign(network_.graph.n_nodes(), OpenMesh::VertexHandle());
-  // Vertices in the order of the network, so that neighbours along a line are neighbours in memory.
-  std::vector<char> used(vertices_.size(), 0);
-  for (const auto& polygon : polygons)
-    for (const int n : polygon) used[at(n)] = 1;
-  for (size_t n = 0; n < used.size(); ++n)
-    if (used[n]) vertex_of(static_cast<int>(n));
-  std::vector<OpenMesh::VertexHandle> corners;
-  for (const auto& polygon : polygons) {
-    corners.clear();
-    for (const int n : polygon) corners.push_back(vertices_[at(n)]);
-    if (!mesh_.add_face(corners).is_valid())
-      throw CannotProcess("a polygon at vertex " + std::to_string(corners.front().idx()) +
-                          " of the result would not be manifold; try a smaller epsilon");
-  }
-  const auto origin = provide_property(mesh_, property::origin);
-  const auto source_face = provide_property(mesh_, property::source_face);
-  const auto barycentric = provide_property(mesh_, property::source_barycentric);
-  const auto edge_kind = provide_property(mesh_, property::edge_kind);
-  for (const auto v : mesh_.vertices()) {
-    const int node = nodes_[at(v.idx())];
-    mesh_.property(origin, v) = static_cast<int>(final_origin(network_, node));
-    mesh_.property(source_face, v) = network_.points[at(node)].face.idx();
-    mesh_.property(barycentric, v) = network_.points[at(node)].barycentric;
-  }
-  for (const auto e : mesh_.edges()) {
-    const auto h = mesh_.halfedge_handle(e, 0);
-    const int edge = network_.graph.find_edge(nodes_[at(mesh_.from_vertex_handle(h).idx())],
-                                              nodes_[at(mesh_.to_vertex_handle(h).idx())]);
-    const int kind = edge >= 0 ? network_.graph.edge(edge).kind : static_cast<int>(EdgeKind::conforming);
-    mesh_.property(edge_kind, e) = kind;
-    mesh_.status(e).set_feature(kind == static_cast<int>(EdgeKind::feature));
-  }
+[[noreturn]] void refuse(const std::vector<int>& polygon, const NetworkGraph& network, size_t count) {
+  Vec3d middle(0, 0, 0);
+  for (const int n : polygon) middle += network.positions[at(n)] / static_cast<double>(polygon.size());
+  throw CannotProcess(std::to_string(count) + " polygons would be folded or degenerate, one of them near (" +
+                      std::to_string(middle[0]) + ", " + std::to_string(middle[1]) + ", " +
+                      std::to_string(middle[2]) + "); smooth the input there or try a smaller epsilon");
 }
 
 void count_faces(const OpenMesh::PolyMesh& mesh, MeshReport& report) {
@@ -148,32 +93,46 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
   const double epsilon = epsilon_of(surface.connectivity());
 
   const detail::SurfaceNormals normals(surface);
-  NetworkGraph network =
+  const NetworkGraph arranged =
       detail::arrange_network(surface, locator, normals, lines, options.corner_angle_degrees);
-  local.crossings = network.crossings;
+  local.crossings = arranged.crossings;
   local.arrangement_seconds = stopwatch.lap();
-  report_progress(progress, 0.5);
+  report_progress(progress, 0.4);
 
-  const auto decimated =
-      detail::decimate(network, {options.chain_tolerance * epsilon, options.merge_fraction});
-  local.trimmed = decimated.trimmed;
-  local.straightened = decimated.straightened;
-  local.merged = decimated.merged;
-  local.decimation_seconds = stopwatch.lap();
-  report_progress(progress, 0.7);
+  NetworkGraph network;
+  std::vector<std::vector<int>> polygons;
+  for (double share = 1;; share /= 2) {
+    network = arranged;
+    const auto decimated = detail::decimate(
+        network, {limited(options.chain_tolerance * epsilon, share, surface), options.merge_fraction});
+    local.trimmed = decimated.trimmed;
+    local.straightened = decimated.straightened;
+    local.merged = decimated.merged;
+    local.decimation_seconds += stopwatch.lap();
+    report_progress(progress, 0.6);
 
-  const detail::PolygonJudge judge(surface, locator, normals, {epsilon, options.max_bend_degrees});
-  auto set = detail::extract_polygons(
-      network, surface, locator, normals, judge,
-      {{options.max_degree, options.convex}, options.cell_tolerance * epsilon, options.flip_edges});
-  if (options.max_degree == 4) detail::pair_triangles(set.polygons, network, judge, options.join_lines);
-  local.added_samples = set.added_samples;
-  local.dropped_samples = set.dropped_samples;
-  local.convexity_splits = set.convexity_splits;
-  local.conforming_edges = set.conforming_edges;
-  OpenMesh::PolyMesh mesh;
-  Output(network, mesh).add(set.polygons);
-  local.polygon_seconds = stopwatch.lap();
+    const detail::PolygonJudge judge(surface, locator, normals, {epsilon, options.max_bend_degrees});
+    auto set = detail::extract_polygons(network, surface, locator, normals, judge,
+                                        {{options.max_degree, options.convex},
+                                         limited(options.cell_tolerance * epsilon, share, surface),
+                                         options.flip_edges});
+    if (options.max_degree == 4) detail::pair_triangles(set.polygons, network, judge, options.join_lines);
+    local.added_samples = set.added_samples;
+    local.dropped_samples = set.dropped_samples;
+    local.convexity_splits = set.convexity_splits;
+    local.conforming_edges = set.conforming_edges;
+    polygons = std::move(set.polygons);
+    const detail::Soundness soundness(surface, locator, judge, options.convex);
+    soundness.require_topology(polygons);
+    const auto unsound = soundness.repair(polygons, network, options.max_degree);
+    local.polygon_seconds += stopwatch.lap();
+    report_progress(progress, 0.8);
+    if (unsound.empty()) break;
+    ++local.retries;
+    if (local.retries > max_retries) refuse(unsound.front(), network, unsound.size());
+  }
+  OpenMesh::PolyMesh mesh = detail::make_mesh(network, polygons);
+  local.polygon_seconds += stopwatch.lap();
   report_progress(progress, 1);
 
   count_faces(mesh, local);

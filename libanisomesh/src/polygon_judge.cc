@@ -134,6 +134,15 @@ double PolygonJudge::quad_cost(const RegionCorners& region, const std::array<int
   return cost;
 }
 
+double PolygonJudge::cost(const RegionCorners& region, const std::vector<std::vector<int>>& polygons) const {
+  double sum = 0;
+  for (const auto& p : polygons)
+    sum += p.size() == 3   ? triangle_cost(region, p[0], p[1], p[2])
+           : p.size() == 4 ? quad_cost(region, {p[0], p[1], p[2], p[3]})
+                           : 1;
+  return sum;
+}
+
 bool PolygonJudge::is_convex(const std::vector<Vec3d>& p) {
   const size_t n = p.size();
   const Vec3d area = area_vector(p);

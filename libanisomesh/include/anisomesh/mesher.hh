@@ -41,6 +41,7 @@ struct MeshReport {
   size_t merged = 0;        ///< edges contracted because they were too short for their place
   size_t added_samples = 0, dropped_samples = 0;  ///< isotropic samples, by cell_tolerance
   size_t convexity_splits = 0, conforming_edges = 0;
+  size_t retries = 0;  ///< passes with half the tolerances, because a polygon would have been folded
   double arrangement_seconds = 0, decimation_seconds = 0, polygon_seconds = 0;
   double seconds = 0;
 };

@@ -1,0 +1,82 @@
+#include "polygon_adjacency.hh"
+
+#include <algorithm>
+
+namespace anisomesh::detail {
+
+namespace {
+
+using Polygon = std::vector<int>;
+size_t at(int i) { return static_cast<size_t>(i); }
+
+}  // namespace
+
+PolygonAdjacency::PolygonAdjacency(const std::vector<Polygon>& polygons, size_t n_nodes,
+                                   const std::function<bool(int, int)>& may_cross)
+    : faces_at_(n_nodes, 0) {
+  struct Side {
+    int low, high;
+    size_t place;
+    int polygon;
+  };
+  std::vector<Side> sides;
+  for (size_t p = 0; p < polygons.size(); ++p) {
+    first_.push_back(neighbors_.size());
+    count(polygons[p], 1);
+    for (size_t i = 0; i < polygons[p].size(); ++i) {
+      const int from = polygons[p][i], to = polygons[p][(i + 1) % polygons[p].size()];
+      sides.push_back({std::min(from, to), std::max(from, to), neighbors_.size(), static_cast<int>(p)});
+      neighbors_.push_back(-1);
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    if (x.low != y.low) return x.low < y.low;
+    return x.high != y.high ? x.high < y.high : x.place < y.place;
+  });
+  for (size_t i = 0; i + 1 < sides.size(); ++i) {
+    const Side &x = sides[i], &y = sides[i + 1];
+    if (x.low != y.low || x.high != y.high || !may_cross(x.low, x.high)) continue;
+    neighbors_[x.place] = y.polygon;
+    neighbors_[y.place] = x.polygon;
+  }
+}
+
+RegionCorners PolygonAdjacency::around(const std::vector<Polygon>& polygons, const std::vector<int>& path,
+                                       const NetworkGraph& network) const {
+  Polygon ring = polygons[at(path.front())];
+  for (size_t i = 1; i < path.size(); ++i) {
+    const Polygon& before = polygons[at(path[i - 1])];
+    const Polygon& next = polygons[at(path[i])];
+    size_t side = 0;
+    while (neighbor(path[i - 1], side) != path[i]) ++side;
+    const int a = before[side], b = before[(side + 1) % before.size()];
+    const auto start = static_cast<size_t>(std::find(next.begin(), next.end(), a) - next.begin());
+    auto place = std::find(ring.begin(), ring.end(), b) - ring.begin();
+    for (size_t k = 1; next[(start + k) % next.size()] != b; ++k, ++place)
+      ring.insert(ring.begin() + place, next[(start + k) % next.size()]);
+  }
+  RegionCorners corners;
+  Polygon sorted = ring;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return corners;
+  for (const int n : ring) corners.add(network, n);
+  corners.loop = ring.size();
+  for (size_t i = 1; i + 1 < ring.size(); ++i)
+    corners.normal +=
+        cross(corners.position[i] - corners.position[0], corners.position[i + 1] - corners.position[0]);
+  return corners;
+}
+
+std::vector<Polygon> in_corners(const RegionCorners& corners, const std::vector<Polygon>& polygons,
+                                const std::vector<int>& path) {
+  std::vector<Polygon> result;
+  for (const int p : path) {
+    result.emplace_back();
+    for (const int n : polygons[at(p)])
+      result.back().push_back(
+          static_cast<int>(std::find(corners.node.begin(), corners.node.end(), n) - corners.node.begin()));
+  }
+  return result;
+}
+
+}  // namespace anisomesh::detail

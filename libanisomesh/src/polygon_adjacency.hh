@@ -1,0 +1,44 @@
+// Which polygon lies across which side, and the outline of several of them.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "polygon_judge.hh"
+
+namespace anisomesh::detail {
+
+class PolygonAdjacency {
+ public:
+  PolygonAdjacency() = default;
+  /// Polygons as nodes of a network, counter-clockwise. Only sides that `may_cross`(node, node) allows count.
+  PolygonAdjacency(const std::vector<std::vector<int>>& polygons, size_t n_nodes,
+                   const std::function<bool(int, int)>& may_cross);
+
+  /// The polygon across the side that begins at corner `side` of a polygon, or -1.
+  int neighbor(int polygon, size_t side) const {
+    return neighbors_[first_[static_cast<size_t>(polygon)] + side];
+  }
+  /// How many polygons meet at a node.
+  int faces_at(int node) const { return faces_at_[static_cast<size_t>(node)]; }
+  /// Counts polygons in (by = 1) or out (by = -1).
+  void count(const std::vector<int>& polygon, int by) {
+    for (const int n : polygon) faces_at_[static_cast<size_t>(n)] += by;
+  }
+  /// The corners around polygons each of which lies beside the one before it; loop is 0 if they enclose a
+  /// hole or touch themselves.
+  RegionCorners around(const std::vector<std::vector<int>>& polygons, const std::vector<int>& path,
+                       const NetworkGraph& network) const;
+
+ private:
+  std::vector<size_t> first_;
+  std::vector<int> neighbors_;
+  std::vector<int> faces_at_;
+};
+
+/// Polygons with indices into the corners instead of nodes.
+std::vector<std::vector<int>> in_corners(const RegionCorners& corners,
+                                         const std::vector<std::vector<int>>& polygons,
+                                         const std::vector<int>& path);
+
+}  // namespace anisomesh::detail

@@ -1,0 +1,281 @@
+#include "soundness.hh"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "anisomesh/errors.hh"
+#include "conforming.hh"
+#include "numerics/bvh.hh"
+#include "polygon_adjacency.hh"
+
+namespace anisomesh::detail {
+
+namespace {
+
+using Polygon = std::vector<int>;
+size_t at(int i) { return static_cast<size_t>(i); }
+
+constexpr double least_area = 1e-5;   // twice the area over the squared diameter
+constexpr double surely_right = 0.3;  // cosine to the surface's normal at all corners: no closer look needed
+constexpr double folded_cosine = -0.985;  // neighbours lie on each other: 170 degrees
+constexpr double reach = 0.5;             // of the diameter: how far away the surface may face the right way
+constexpr int max_repairs = 3;            // rounds
+
+std::vector<Vec3d> positions_of(const Polygon& polygon, const NetworkGraph& network) {
+  std::vector<Vec3d> result;
+  for (const int n : polygon) result.push_back(network.positions[at(n)]);
+  return result;
+}
+
+Vec3d area_vector(const Polygon& polygon, const NetworkGraph& network) {
+  Vec3d sum(0, 0, 0);
+  const Vec3d& first = network.positions[at(polygon[0])];
+  for (size_t i = 1; i + 1 < polygon.size(); ++i)
+    sum += cross(network.positions[at(polygon[i])] - first, network.positions[at(polygon[i + 1])] - first);
+  return sum;
+}
+
+double diameter_of(const Polygon& polygon, const NetworkGraph& network) {
+  double squared = 0;
+  for (const int n : polygon)
+    for (const int m : polygon)
+      squared = std::max(squared, (network.positions[at(n)] - network.positions[at(m)]).sqrnorm());
+  return std::sqrt(squared);
+}
+
+bool is_feature_edge(const NetworkGraph& network, int a, int b) {
+  const int edge = network.graph.find_edge(a, b);
+  return edge >= 0 && !is_line(network.graph.edge(edge).kind);
+}
+
+// Components, Euler characteristic and border loops, from the sides of all faces.
+struct Topology {
+  int euler = 0, loops = 0;
+  bool manifold = true;
+};
+
+Topology topology_of(const std::vector<Polygon>& polygons, size_t n_nodes) {
+  Topology result;
+  std::vector<std::array<int, 2>> sides;
+  std::vector<int> faces(n_nodes, 0), edges(n_nodes, 0), onward(n_nodes, -1);
+  for (const Polygon& p : polygons)
+    for (size_t i = 0; i < p.size(); ++i) {
+      sides.push_back({p[i], p[(i + 1) % p.size()]});
+      ++faces[at(p[i])];
+    }
+  std::sort(sides.begin(), sides.end());
+  if (std::adjacent_find(sides.begin(), sides.end()) != sides.end()) result.manifold = false;
+  size_t n_edges = 0;
+  for (const auto& side : sides) {
+    const bool inner = std::binary_search(sides.begin(), sides.end(), std::array<int, 2>{side[1], side[0]});
+    if (inner && side[0] > side[1]) continue;
+    ++n_edges;
+    ++edges[at(side[0])];
+    ++edges[at(side[1])];
+    if (inner) continue;
+    if (onward[at(side[1])] >= 0) result.manifold = false;  // the border passes the node twice
+    onward[at(side[1])] = side[0];
+  }
+  int vertices = 0;
+  for (size_t n = 0; n < n_nodes; ++n) {
+    if (faces[n] == 0) continue;
+    ++vertices;
+    if (edges[n] != faces[n] + (onward[n] >= 0 ? 1 : 0)) result.manifold = false;
+  }
+  result.euler = vertices - static_cast<int>(n_edges) + static_cast<int>(polygons.size());
+  for (size_t n = 0; n < n_nodes; ++n) {
+    if (onward[n] < 0) continue;
+    ++result.loops;
+    for (size_t at_node = n; onward[at_node] >= 0;) {
+      const auto next = at(onward[at_node]);
+      onward[at_node] = -1;
+      at_node = next;
+    }
+  }
+  return result;
+}
+
+Topology topology_of(const OpenMesh::TriConnectivity& mesh) {
+  Topology result;
+  int vertices = 0;
+  for (const auto v : mesh.vertices()) vertices += mesh.is_isolated(v) ? 0 : 1;
+  result.euler = vertices - static_cast<int>(mesh.n_edges()) + static_cast<int>(mesh.n_faces());
+  std::vector<char> seen(mesh.n_halfedges(), 0);
+  for (const auto h : mesh.halfedges()) {
+    if (!mesh.is_boundary(h) || seen[at(h.idx())]) continue;
+    ++result.loops;
+    for (OpenMesh::HalfedgeHandle next = h; !seen[at(next.idx())]; next = mesh.next_halfedge_handle(next))
+      seen[at(next.idx())] = 1;
+  }
+  return result;
+}
+
+}  // namespace
+
+// Whether the surface around a place faces the other way than `normal`, everywhere within reach. Where it is
+// more tightly curled than the polygons are large, a polygon that stands for both sides is no fold.
+bool Soundness::is_against(const Vec2d& uv, OpenMesh::FaceHandle start, const Vec3d& place,
+                           const Vec3d& normal, double diameter) const {
+  const auto& mesh = surface_.connectivity();
+  const SurfacePoint below = locator_.locate(uv, start);
+  const double limit = (position(surface_, below) - place).norm() + reach * diameter;
+  std::vector<OpenMesh::FaceHandle> found{below.face};
+  double nearest = std::numeric_limits<double>::infinity(), nearest_right = nearest;
+  for (size_t i = 0; i < found.size(); ++i) {
+    const auto c = surface_.corners(found[i]);
+    const Vec3d &p = surface_.point(c.vertex[0]), &q = surface_.point(c.vertex[1]),
+                &r = surface_.point(c.vertex[2]);
+    const Vec3d b = closest_barycentric(place, p, q, r);
+    const double distance = (b[0] * p + b[1] * q + b[2] * r - place).norm();
+    if (distance > limit) continue;
+    nearest = std::min(nearest, distance);
+    if ((cross(q - p, r - p) | normal) > 0) nearest_right = std::min(nearest_right, distance);
+    for (const auto f : mesh.ff_range(found[i]))
+      if (std::find(found.begin(), found.end(), f) == found.end()) found.push_back(f);
+  }
+  return nearest_right > nearest + reach * diameter;
+}
+
+// Turned over against the surface at more than half of a few places in it.
+bool Soundness::is_folded(const Polygon& polygon, const NetworkGraph& network, const Vec3d& normal) const {
+  static const double weights[4][3] = {{1.0 / 3, 1.0 / 3, 1.0 / 3},
+                                       {2.0 / 3, 1.0 / 6, 1.0 / 6},
+                                       {1.0 / 6, 2.0 / 3, 1.0 / 6},
+                                       {1.0 / 6, 1.0 / 6, 2.0 / 3}};
+  int against = 0, samples = 0;
+  for (size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const Vec2d &a = network.graph.uv(polygon[0]), &b = network.graph.uv(polygon[i]),
+                &c = network.graph.uv(polygon[i + 1]);
+    for (const auto& w : weights) {
+      ++samples;
+      const Vec3d place = w[0] * network.positions[at(polygon[0])] +
+                          w[1] * network.positions[at(polygon[i])] +
+                          w[2] * network.positions[at(polygon[i + 1])];
+      against += is_against(w[0] * a + w[1] * b + w[2] * c, network.points[at(polygon[0])].face, place,
+                            normal, diameter_of(polygon, network));
+    }
+  }
+  return 2 * against > samples;
+}
+
+bool Soundness::is_sound(const Polygon& polygon, const NetworkGraph& network) const {
+  const Vec3d area = area_vector(polygon, network);
+  const double diameter = diameter_of(polygon, network), length = area.norm();
+  if (!(length > least_area * diameter * diameter)) return false;
+  const Vec3d normal = area / length;
+  if (convex_ && polygon.size() > 3 && !PolygonJudge::is_convex(positions_of(polygon, network))) return false;
+  const bool right = std::all_of(polygon.begin(), polygon.end(),
+                                 [&](int n) { return (network.normals[at(n)] | normal) > surely_right; });
+  return right || !is_folded(polygon, network, normal);
+}
+
+std::vector<int> Soundness::unsound(const std::vector<Polygon>& polygons, const NetworkGraph& network) const {
+  std::vector<char> bad(polygons.size(), 0);
+  for (size_t p = 0; p < polygons.size(); ++p) bad[p] = !is_sound(polygons[p], network);
+  const PolygonAdjacency adjacency(polygons, network.graph.n_nodes(),
+                                   [&](int a, int b) { return !is_feature_edge(network, a, b); });
+  for (size_t p = 0; p < polygons.size(); ++p)
+    for (size_t i = 0; i < polygons[p].size(); ++i) {
+      const int q = adjacency.neighbor(static_cast<int>(p), i);
+      if (q <= static_cast<int>(p)) continue;
+      const Vec3d n = area_vector(polygons[p], network), m = area_vector(polygons[at(q)], network);
+      if ((n | m) > folded_cosine * n.norm() * m.norm()) continue;
+      const int a = polygons[p][i], b = polygons[p][(i + 1) % polygons[p].size()];
+      const Vec2d middle = 0.5 * (network.graph.uv(a) + network.graph.uv(b));
+      const Vec3d place = 0.5 * (network.positions[at(a)] + network.positions[at(b)]);
+      bad[p] |= is_against(middle, network.points[at(a)].face, place, n, diameter_of(polygons[p], network));
+      bad[at(q)] |=
+          is_against(middle, network.points[at(a)].face, place, m, diameter_of(polygons[at(q)], network));
+    }
+  std::vector<int> result;
+  for (size_t p = 0; p < polygons.size(); ++p)
+    if (bad[p]) result.push_back(static_cast<int>(p));
+  return result;
+}
+
+// The cheapest new partition of the polygon with one or two of its neighbours that is sound.
+bool Soundness::repair_one(int polygon, std::vector<Polygon>& polygons, const NetworkGraph& network,
+                           int max_degree) const {
+  const PolygonAdjacency adjacency(polygons, network.graph.n_nodes(),
+                                   [&](int a, int b) { return !is_feature_edge(network, a, b); });
+  const auto neighbors = [&](int p) {
+    std::vector<int> result;
+    for (size_t i = 0; i < polygons[at(p)].size(); ++i)
+      if (adjacency.neighbor(p, i) >= 0) result.push_back(adjacency.neighbor(p, i));
+    return result;
+  };
+  std::vector<std::vector<int>> paths{{polygon}};
+  for (const int n : neighbors(polygon)) {
+    paths.push_back({polygon, n});
+    for (const int m : neighbors(polygon))
+      if (n < m) paths.push_back({n, polygon, m});
+    for (const int m : neighbors(n))
+      if (m != polygon) paths.push_back({polygon, n, m});
+  }
+  double best = std::numeric_limits<double>::infinity();
+  const std::vector<int>* best_path = nullptr;
+  std::vector<Polygon> best_pieces;
+  for (const auto& path : paths) {
+    RegionCorners corners = adjacency.around(polygons, path, network);
+    if (corners.loop == 0 || corners.loop > 12) continue;
+    std::vector<Polygon> pieces = best_partition(corners, judge_, max_degree != 3);
+    double cost = pieces.empty() ? std::numeric_limits<double>::infinity() : judge_.cost(corners, pieces);
+    for (Polygon& piece : pieces) {
+      for (int& i : piece) i = corners.node[at(i)];
+      if (!is_sound(piece, network)) cost = std::numeric_limits<double>::infinity();
+    }
+    cost -= judge_.cost(corners, in_corners(corners, polygons, path));
+    if (!(cost < best)) continue;
+    best = cost;
+    best_path = &path;
+    best_pieces = std::move(pieces);
+  }
+  if (!best_path) return false;
+  for (size_t i = 0; i < best_path->size() || i < best_pieces.size(); ++i) {
+    if (i >= best_path->size())
+      polygons.push_back(best_pieces[i]);
+    else
+      polygons[at((*best_path)[i])] = i < best_pieces.size() ? best_pieces[i] : Polygon{};
+  }
+  polygons.erase(std::remove_if(polygons.begin(), polygons.end(), [](const Polygon& p) { return p.empty(); }),
+                 polygons.end());
+  return true;
+}
+
+std::vector<Polygon> Soundness::repair(std::vector<Polygon>& polygons, const NetworkGraph& network,
+                                       int max_degree) const {
+  std::vector<int> bad = unsound(polygons, network);
+  for (int round = 0; round < max_repairs && !bad.empty(); ++round) {
+    size_t repaired = 0;
+    // A repair may move polygons in the array, so each is found again by its corners.
+    std::vector<Polygon> waiting;
+    for (const int p : bad) waiting.push_back(polygons[at(p)]);
+    for (const Polygon& p : waiting) {
+      const auto place = std::find(polygons.begin(), polygons.end(), p);
+      if (place != polygons.end())
+        repaired += repair_one(static_cast<int>(place - polygons.begin()), polygons, network, max_degree);
+    }
+    bad = unsound(polygons, network);
+    if (repaired == 0) break;
+  }
+  std::vector<Polygon> left;
+  for (const int p : bad) left.push_back(polygons[at(p)]);
+  return left;
+}
+
+void Soundness::require_topology(const std::vector<Polygon>& polygons) const {
+  int nodes = 0;
+  for (const Polygon& p : polygons)
+    for (const int n : p) nodes = std::max(nodes, n + 1);
+  const Topology result = topology_of(polygons, at(nodes)), input = topology_of(surface_.connectivity());
+  if (!result.manifold) throw CannotProcess("the polygons are not manifold; try a smaller epsilon");
+  if (result.euler != input.euler || result.loops != input.loops)
+    throw CannotProcess("the polygons have " + std::to_string(result.loops) +
+                        " border loops and Euler characteristic " + std::to_string(result.euler) +
+                        ", the input " + std::to_string(input.loops) + " and " + std::to_string(input.euler) +
+                        "; try a smaller epsilon");
+}
+
+}  // namespace anisomesh::detail

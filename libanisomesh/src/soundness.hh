@@ -1,0 +1,39 @@
+// What every result must be: manifold, of the input's topology, and of polygons that are convex, not folded
+// and not without area. Checked on the polygons themselves; repaired where that is possible.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "network_graph.hh"
+#include "polygon_judge.hh"
+
+namespace anisomesh::detail {
+
+class Soundness {
+ public:
+  Soundness(const SurfaceRef& surface, const UvLocator& locator, const PolygonJudge& judge, bool convex)
+      : surface_(surface), locator_(locator), judge_(judge), convex_(convex) {}
+
+  /// Partitions anew around unsound polygons. \return those that are left
+  std::vector<std::vector<int>> repair(std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
+                                       int max_degree) const;
+  /// \throw CannotProcess if the polygons are not a manifold with the input's Euler characteristic and border
+  void require_topology(const std::vector<std::vector<int>>& polygons) const;
+
+ private:
+  bool is_sound(const std::vector<int>& polygon, const NetworkGraph& network) const;
+  bool is_folded(const std::vector<int>& polygon, const NetworkGraph& network, const Vec3d& normal) const;
+  bool is_against(const Vec2d& uv, OpenMesh::FaceHandle start, const Vec3d& place, const Vec3d& normal,
+                  double diameter) const;
+  std::vector<int> unsound(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network) const;
+  bool repair_one(int polygon, std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
+                  int max_degree) const;
+
+  const SurfaceRef& surface_;
+  const UvLocator& locator_;
+  const PolygonJudge& judge_;
+  bool convex_;
+};
+
+}  // namespace anisomesh::detail
