@@ -51,7 +51,8 @@ class BoxTree {
       if (!(distance < bound)) continue;
       const Node& node = nodes_[static_cast<size_t>(index)];
       if (node.count > 0) {
-        for (int i = 0; i < node.count; ++i) refine(items_[static_cast<size_t>(node.first + i)], bound);
+        for (int i = 0; i < node.count; ++i)
+          refine(items_[static_cast<size_t>(node.first) + static_cast<size_t>(i)], bound);
         continue;
       }
       const int left = index + 1, right = node.first;
