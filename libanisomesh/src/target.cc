@@ -131,6 +131,7 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     return build_polygons(surface, mesh, &done.mesh, sub_progress(progress, from + 0.6 * span, to));
   };
   const auto finish = [&](OpenMesh::PolyMesh&& result) {
+    report_progress(progress, 1);  // the search may have ended early
     done.attempts_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (report) *report = done;
     return std::move(result);

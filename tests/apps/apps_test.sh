@@ -1,0 +1,218 @@
+#!/usr/bin/env bash
+# apps_test.sh CASE APPS_FOLDER: what the apps promise at the command line, one case a test.
+set -eu -o pipefail
+case_name=$1
+PATH=$(cd "$2" && pwd):$PATH
+work=$(mktemp -d)
+trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+chmod 777 "$work"
+cd "$work"
+
+fail() { echo "FAILED: $*" >&2; exit 1; }
+
+# expect CODE PATTERN COMMAND...: the exit code, and one line on stderr that holds the pattern (none where it is empty).
+expect() {
+  local code=$1 pattern=$2 found=0
+  shift 2
+  "$@" >out.txt 2>err.txt || found=$?
+  [ "$found" -eq "$code" ] || { cat out.txt err.txt >&2; fail "exit $found instead of $code: $*"; }
+  if [ -n "$pattern" ]; then
+    grep -qF -- "$pattern" err.txt || { cat err.txt >&2; fail "no '$pattern' in the message of: $*"; }
+    [ "$(wc -l <err.txt)" -eq 1 ] || { cat err.txt >&2; fail "more than one line from: $*"; }
+  else
+    [ ! -s err.txt ] || { cat err.txt >&2; fail "something on stderr from: $*"; }
+  fi
+}
+
+# only NAME...: these files and no other are left in the folder `here`.
+only() {
+  local found
+  found=$(find here -mindepth 1 -printf '%P\n' | sort | tr '\n' ' ')
+  [ "$found" = "$(printf '%s\n' "$@" | sort | tr '\n' ' ')" ] || fail "left in the folder: $found"
+}
+
+# as_user COMMAND...: without root's rights, which no permission stops. Where that cannot be done it says so and fails.
+as_user() {
+  if [ "$(id -u)" -ne 0 ]; then "$@"; else setpriv --reuid=65534 --regid=65534 --clear-groups "$@"; fi
+}
+
+# shellcheck disable=SC2086  # options are lists of words
+in_a_row() {  # in_a_row IN OUT: the four stage apps; ESTIMATE, FLATTEN, TRACE, MESH hold their options
+  anisomesh-estimate -q "$1" -o 1.om ${ESTIMATE:-}
+  anisomesh-flatten -q 1.om -o 2.om ${FLATTEN:-}
+  anisomesh-trace -q 2.om -o 3.om ${TRACE:-}
+  anisomesh-mesh -q 3.om -o "$2" ${MESH:-}
+}
+
+case $case_name in
+stages_give_the_same_bytes)
+  anisomesh-shapes -q octa-flower --vertices 2000 --irregular -o flower.om
+  in_a_row flower.om row.obj
+  anisomesh-remesh -q flower.om -o one.obj
+  cmp row.obj one.obj
+  # with every option away from its default, a target, and a file that brings no tags
+  anisomesh-shapes -q wave --vertices 1500 -o wave.off
+  density="--rho 0.2 --adaptation 0.8 --seed 3 --target-faces 300"
+  polygons="--max-degree 6 --no-convex"
+  ESTIMATE="--estimator normal-cycle --radius 0.03 --feature-angle 40"
+  FLATTEN="--smoothing 2 --smoothing-radius 0.02"
+  TRACE="$density $polygons" MESH=$polygons
+  in_a_row wave.off row.ply
+  # shellcheck disable=SC2086
+  anisomesh-remesh -q wave.off -o one.ply $ESTIMATE $FLATTEN $density $polygons
+  cmp row.ply one.ply
+  ;;
+
+threads_change_nothing)
+  anisomesh-shapes -q saddle --vertices 3000 --irregular -o saddle.off
+  for n in 1 2 5; do anisomesh-remesh -q saddle.off -o "$n.om" --threads "$n"; done
+  cmp 1.om 2.om
+  cmp 1.om 5.om
+  ;;
+
+usage)
+  for app in estimate flatten trace mesh remesh shapes compare; do
+    expect 0 "" "anisomesh-$app" --help
+    grep -q "Exit codes" out.txt || fail "no exit codes in the help of $app"
+    expect 0 "" "anisomesh-$app" --version
+    grep -Eq "^anisomesh-$app [0-9]+\.[0-9]+\.[0-9]+$" out.txt || fail "version of $app"
+    expect 2 "anisomesh-$app: " "anisomesh-$app"
+    expect 2 "--help lists the options" "anisomesh-$app" --nonsense
+  done
+  anisomesh-shapes -q dome --vertices 300 -o dome.off
+  expect 2 "--nonsense" anisomesh-remesh dome.off -o x.obj --nonsense
+  expect 2 "epsilon" anisomesh-remesh dome.off -o x.obj --epsilon 0
+  expect 2 "rho" anisomesh-remesh dome.off -o x.obj --rho 1.5
+  expect 2 "max_degree" anisomesh-remesh dome.off -o x.obj --max-degree 2
+  expect 2 "--target" anisomesh-remesh dome.off -o x.obj --target-faces 100 --target-vertices 100
+  expect 2 "radius" anisomesh-remesh dome.off -o x.obj --radius=-1
+  expect 2 "ten" anisomesh-remesh dome.off -o x.obj --smoothing ten
+  expect 2 "normal-cycle" anisomesh-remesh dome.off -o x.obj --estimator guess
+  expect 2 "octa-flower" anisomesh-shapes nonagon -o x.obj
+  [ ! -e x.obj ] || fail "a run that failed wrote its result"
+  ;;
+
+bad_input)
+  mkdir here
+  printf 'old' >here/out.obj
+  try() { expect "$1" "$2" anisomesh-remesh "$3" -o here/out.obj; }
+  : >empty.off; try 3 "empty.off: the file is empty" empty.off
+  try 3 "absent.off" absent.off
+  mkdir folder.off; try 3 "directory" folder.off
+  printf 'OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n' >nan.off; try 3 "nan.off: line 4" nan.off
+  printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n' >range.off; try 3 "range.off: line 6" range.off
+  printf 'OFF\n3 1 0\n0 0 0\n1 0' >cut.off; try 3 "cut.off" cut.off
+  try 3 ".obj, .off, .ply, .stl or .om" noending
+  anisomesh-shapes -q dome --vertices 100 -o dome.off
+  cp dome.off secret.off; chmod 000 secret.off
+  expect 3 "secret.off: cannot be read: Permission denied" as_user anisomesh-remesh secret.off -o secret.obj
+  # two components; closed; an annulus
+  printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n3 0 1 2\n3 3 4 5\n' >two.off
+  try 4 "two.off: " two.off
+  printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >closed.off
+  try 4 "closed.off: " closed.off
+  printf 'OFF\n6 6 0\n0 0 0\n4 0 0\n0 4 0\n1 1 0\n2 1 0\n1 2 0\n3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n3 2 0 3\n3 2 3 5\n' >annulus.off
+  try 4 "annulus.off: " annulus.off
+  # stages out of order
+  anisomesh-shapes -q dome --vertices 100 -o dome.om
+  for app in flatten trace mesh; do expect 3 "run " "anisomesh-$app" dome.om -o here/out.obj; done
+  # a feature file that names what is not there
+  printf '0 99999\n' >edges.txt
+  expect 3 "99999" anisomesh-remesh dome.off -o here/out.obj --feature-file edges.txt
+  only out.obj
+  [ "$(cat here/out.obj)" = old ] || fail "a run that failed harmed the file that was there"
+  ;;
+
+bad_output)
+  mkdir here
+  anisomesh-shapes -q dome --vertices 100 -o dome.off
+  expect 3 ".obj, .off, .ply or .om" anisomesh-remesh dome.off -o here/out
+  expect 3 ".obj, .off, .ply or .om" anisomesh-remesh dome.off -o here/out.stl
+  expect 3 "here/no/out.obj" anisomesh-remesh dome.off -o here/no/out.obj
+  mkdir here/folder.obj
+  expect 3 "directory" anisomesh-remesh dome.off -o here/folder.obj
+  rmdir here/folder.obj
+  if [ -e /dev/full ]; then
+    ln -s /dev/full full.obj
+    expect 3 "full.obj: cannot be written" anisomesh-remesh dome.off -o full.obj
+    [ -e /dev/full ] || fail "/dev/full is gone"
+  fi
+  expect 3 "here/no/r.json" anisomesh-remesh dome.off -o here/out.obj --json here/no/r.json
+  chmod a-w here
+  expect 3 "here/out.obj: cannot be written: Permission denied" as_user anisomesh-remesh dome.off -o here/out.obj
+  chmod a+w here
+  printf 'old' >here/kept.obj; chmod a-w here/kept.obj
+  expect 3 "here/kept.obj: cannot be overwritten: Permission denied" as_user anisomesh-remesh dome.off -o here/kept.obj
+  [ "$(cat here/kept.obj)" = old ] || fail "a write-protected file was replaced"
+  rm -f here/kept.obj
+  # a disk that fills up while the result is written
+  (ulimit -f 1; trap '' XFSZ; expect 3 "cannot be written" anisomesh-shapes dome --vertices 5000 -o here/big.off)
+  expect 0 "" anisomesh-remesh -q dome.off -o here/out.obj
+  only out.obj
+  ;;
+
+cancel)
+  mkdir here
+  anisomesh-shapes -q wave --vertices 60000 -o wave.off
+  printf 'old' >here/out.obj
+  code=0
+  timeout --preserve-status -s INT 0.7 anisomesh-remesh wave.off -o here/out.obj --epsilon 0.000002 2>err.txt || code=$?
+  [ "$code" -eq 130 ] || { cat err.txt; fail "exit $code instead of 130"; }
+  only out.obj
+  [ "$(cat here/out.obj)" = old ] || fail "a cancelled run harmed the file that was there"
+  ;;
+
+report)
+  anisomesh-shapes -q cylinder --vertices 600 -o cylinder.obj --json shapes.json
+  grep -q '"vertices"' shapes.json
+  expect 0 "" anisomesh-remesh cylinder.obj -o out.om --json -
+  for key in read features curvature flatten smoothing umbilics trace isotropic mesh result seconds epsilon_fraction; do
+    grep -q "\"$key\"" out.txt || fail "no $key in the report"
+  done
+  [ "$(head -c 1 out.txt)" = "{" ] || fail "more than JSON on stdout"
+  expect 0 "" anisomesh-compare cylinder.obj out.om -o map.om --json - --samples 2000
+  for key in two_sided hausdorff folded_faces mean_alignment_degrees same_topology; do
+    grep -q "\"$key\"" out.txt || fail "no $key in the comparison"
+  done
+  grep -aq "anisomesh:error" map.om || fail "no error map"
+  expect 0 "" anisomesh-compare -q cylinder.obj out.om --samples 2000
+  [ ! -s out.txt ] || fail "--quiet is not quiet"
+  # in model units as in fractions of the diagonal
+  anisomesh-remesh -q cylinder.obj -o a.obj --epsilon 0.004
+  diagonal=$(awk '$1 == "v" { for (i = 0; i < 3; ++i) { x = $(i + 2) + 0
+      if (!n || x < low[i]) low[i] = x; if (!n || x > high[i]) high[i] = x } n = 1 }
+    END { for (i = 0; i < 3; ++i) s += (high[i] - low[i]) ^ 2; printf "%.17g", sqrt(s) }' cylinder.obj)
+  anisomesh-remesh -q cylinder.obj -o b.obj --absolute --epsilon "$(awk "BEGIN { printf \"%.17g\", 0.004 * $diagonal }")"
+  [ "$(grep -c '^f' a.obj)" -eq "$(grep -c '^f' b.obj)" ] || fail "--absolute gives another mesh"
+  ;;
+
+features)
+  # A roof: its ridge by angle, by pairs, by OBJ lines; isolated vertices in front do not shift the numbers.
+  {
+    echo OFF; echo "64 98 0"
+    for i in 0 1 2 3 4 5 6 7; do for j in 0 1 2 3 4 5 6 7; do
+      h=$((j < 4 ? j : 7 - j)); echo "$i $j $h"
+    done; done
+    for i in 0 1 2 3 4 5 6; do for j in 0 1 2 3 4 5 6; do
+      a=$((8 * i + j)); echo "3 $a $((a + 8)) $((a + 9))"; echo "3 $a $((a + 9)) $((a + 1))"
+    done; done
+  } >roof.off
+  sed -e '2s/64/65/' -e '2a 9 9 9' roof.off | awk 'NF == 4 && $1 == 3 && NR > 3 { print 3, $2 + 1, $3 + 1, $4 + 1; next } { print }' >shifted.off
+  for i in 0 1 2 3 4 5 6; do echo "$((8 * i + 3)) $((8 * i + 11))"; done >pairs.txt
+  awk '{ print $1 + 1, $2 + 1 }' pairs.txt >shifted.txt
+  { for i in $(seq 1 64); do echo "v 0 0 0"; done; echo "l 4 12 20 28 36 44 52 60"; } >lines.obj
+  count() { grep '"feature_edges"' "$1" | tr -dc 0-9; }
+  anisomesh-estimate -q roof.off -o a.om --feature-file pairs.txt --json a.json
+  anisomesh-estimate -q roof.off -o b.om --feature-file lines.obj --json b.json
+  anisomesh-estimate -q shifted.off -o c.om --feature-file shifted.txt --json c.json
+  [ "$(count a.json) $(count b.json) $(count c.json)" = "7 7 7" ] || fail "features: $(count a.json) $(count b.json) $(count c.json)"
+  cmp a.om b.om
+  cmp a.om c.om
+  anisomesh-estimate -q roof.off -o d.om --feature-angle 40 --json d.json
+  [ "$(count d.json)" -eq 14 ] || fail "by angle: $(count d.json)"
+  anisomesh-estimate -q d.om -o e.om --drop-features --json e.json
+  [ "$(count e.json)" -eq 0 ] || fail "dropped: $(count e.json)"
+  ;;
+
+*) fail "no case $case_name" ;;
+esac
