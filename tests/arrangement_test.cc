@@ -7,11 +7,13 @@
 #include "catch.hh"
 #include "numerics/convex_partition.hh"
 #include "numerics/point_index.hh"
+#include "numerics/small_triangulation.hh"
 
 using anisomesh::detail::Arrangement;
 using anisomesh::detail::convex_partition;
 using anisomesh::detail::PlanarGraph;
 using anisomesh::detail::PointIndex;
+using anisomesh::detail::SmallTriangulation;
 using OpenMesh::Vec2d;
 
 namespace {
@@ -174,4 +176,40 @@ TEST_CASE("the convex partition covers a star with convex pieces", "[arrangement
     sum += area(corners);
   }
   CHECK(sum == Approx(whole));
+}
+
+TEST_CASE("points put into a small triangulation leave it Delaunay and its outline as it was",
+          "[arrangement]") {
+  // An L, which is not convex, so that a walk to a point may leave it.
+  std::vector<Vec2d> points{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+  const std::vector<std::array<int, 3>> triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 5}, {3, 4, 5}};
+  SmallTriangulation triangulation(points, triangles);
+  std::mt19937 random(5);
+  size_t inside = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vec2d p = i == 0 ? Vec2d(0.5, 0.5) : Vec2d(2 * uniform(random), 2 * uniform(random));
+    points.push_back(p);  // the first lies on an edge
+    const bool in_shape = p[0] < 1 || p[1] < 1;
+    const bool inserted = triangulation.insert(static_cast<int>(points.size()) - 1);
+    CHECK(inserted == in_shape);
+    if (!inserted) points.pop_back();
+    inside += inserted;
+  }
+  CHECK(triangulation.triangles().size() == 4 + 2 * inside);
+  double area = 0;
+  for (int t = 0; t < static_cast<int>(triangulation.triangles().size()); ++t) {
+    const auto& c = triangulation.triangles()[static_cast<size_t>(t)];
+    const auto at = [&](int corner) { return points[static_cast<size_t>(corner)]; };
+    CHECK(turn(at(c[0]), at(c[1]), at(c[2])) > 0);
+    area += 0.5 * turn(at(c[0]), at(c[1]), at(c[2]));
+    for (size_t k = 0; k < 3; ++k) {
+      if (triangulation.neighbor(t, k) < 0 || !triangulation.can_flip(t, k)) continue;
+      const auto angle = [&](const Vec2d& apex, const Vec2d& a, const Vec2d& b) {
+        return std::atan2(std::abs(turn(apex, a, b)), (a - apex) | (b - apex));
+      };
+      const Vec2d a = at(c[(k + 1) % 3]), b = at(c[(k + 2) % 3]);
+      CHECK(angle(at(c[k]), a, b) + angle(at(triangulation.across(t, k)), a, b) < 3.14159265358979 + 1e-6);
+    }
+  }
+  CHECK(area == Approx(3));
 }

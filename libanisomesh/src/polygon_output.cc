@@ -34,6 +34,9 @@ class Output {
 
  private:
   OpenMesh::VertexHandle vertex_of(int node);
+  double diagonal(const std::vector<int>& quad, size_t corner) const {
+    return (network_.positions[at(quad[corner])] - network_.positions[at(quad[corner + 2])]).sqrnorm();
+  }
 
   const NetworkGraph& network_;
   OpenMesh::PolyMesh& mesh_;
@@ -61,7 +64,10 @@ void Output::add(const std::vector<std::vector<int>>& polygons) {
   std::vector<OpenMesh::VertexHandle> corners;
   for (const auto& polygon : polygons) {
     corners.clear();
-    for (const int n : polygon) corners.push_back(vertices_[at(n)]);
+    // A viewer that draws a fan from the first corner then uses the shorter diagonal.
+    const size_t first = polygon.size() == 4 && diagonal(polygon, 1) < diagonal(polygon, 0) ? 1 : 0;
+    for (size_t i = 0; i < polygon.size(); ++i)
+      corners.push_back(vertices_[at(polygon[(first + i) % polygon.size()])]);
     if (!mesh_.add_face(corners).is_valid())
       throw CannotProcess("a polygon at vertex " + std::to_string(corners.front().idx()) +
                           " of the result would not be manifold; try a smaller epsilon");

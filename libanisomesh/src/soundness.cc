@@ -131,7 +131,10 @@ bool Soundness::is_against(const Vec2d& uv, OpenMesh::FaceHandle start, const Ve
     const double distance = (b[0] * p + b[1] * q + b[2] * r - place).norm();
     if (distance > limit) continue;
     nearest = std::min(nearest, distance);
-    if ((cross(q - p, r - p) | normal) > 0) nearest_right = std::min(nearest_right, distance);
+    if ((cross(q - p, r - p) | normal) > 0) {
+      if (distance <= reach * diameter) return false;
+      nearest_right = std::min(nearest_right, distance);
+    }
     for (const auto f : mesh.ff_range(found[i]))
       if (std::find(found.begin(), found.end(), f) == found.end()) found.push_back(f);
   }
