@@ -93,6 +93,11 @@ void add_density_options(Command& command, EpsilonFlags& epsilon, TraceOptions& 
                  "A line ends when nearer to another than this fraction of the spacing, in (0, 1)")
       ->type_name("F")
       ->group("Density");
+  app.add_option(
+         "--seed-fraction", options.seed_fraction,
+         "No line starts nearer to another than this fraction of the spacing, from --stop-fraction to 1")
+      ->type_name("F")
+      ->group("Density");
   app.add_option("--seed", options.seed, "Of the random samples that look for gaps")
       ->type_name("N")
       ->group("Density");
