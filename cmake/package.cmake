@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 
 set_target_properties(anisomesh PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
-  POSITION_INDEPENDENT_CODE ON)
+  POSITION_INDEPENDENT_CODE ON DEFINE_SYMBOL "")
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/anisomesh)
 
 install(TARGETS anisomesh EXPORT anisomesh_targets)

@@ -93,10 +93,17 @@ void add_density_options(Command& command, EpsilonFlags& epsilon, TraceOptions& 
                  "A line ends when nearer to another than this fraction of the spacing, in (0, 1)")
       ->type_name("F")
       ->group("Density");
-  app.add_option(
-         "--seed-fraction", options.seed_fraction,
-         "No line starts nearer to another than this fraction of the spacing, from --stop-fraction to 1")
+  app.add_option("--seed-fraction", options.seed_fraction,
+                 "No line starts nearer to another than this fraction of the spacing, in [stop fraction, 1]")
       ->type_name("F")
+      ->group("Density");
+  app.add_option("--min-crossings", options.min_crossings,
+                 "Lines shorter than so many spacings of the other kind are dropped")
+      ->type_name("N")
+      ->group("Density");
+  app.add_option("--max-slope", options.density.max_slope,
+                 "Spacings change by at most this much of a length over that length")
+      ->type_name("S")
       ->group("Density");
   app.add_option("--seed", options.seed, "Of the random samples that look for gaps")
       ->type_name("N")
@@ -130,6 +137,26 @@ void add_mesh_options(Command& command, MeshOptions& options, const std::string&
       ->group(heading);
   app.add_flag("--flip-edges,!--no-flip-edges", options.flip_edges,
                "Flip edges at isotropic samples where it lowers the error; on by default")
+      ->group(heading);
+  app.add_flag("--join-lines,!--no-join-lines", options.join_lines,
+               "Join two triangles to a quad across an edge of a line; on by default")
+      ->group(heading);
+  app.add_option(
+         "--chain-tolerance", options.chain_tolerance,
+         "Lines are straightened as long as their samples stay this near, in epsilons; inf: wherever planar")
+      ->type_name("T")
+      ->group(heading);
+  app.add_option("--cell-tolerance", options.cell_tolerance,
+                 "Cells farther than this from the surface get samples, in epsilons; inf: none")
+      ->type_name("T")
+      ->group(heading);
+  app.add_option("--merge-fraction", options.merge_fraction,
+                 "Edges shorter than this fraction of those they continue are contracted, in [0, 1)")
+      ->type_name("F")
+      ->group(heading);
+  app.add_option("--max-bend", options.max_bend_degrees,
+                 "Quads that are bent more than this along a diagonal are split, in degrees")
+      ->type_name("DEG")
       ->group(heading);
   app.add_option("--corner-angle", options.corner_angle_degrees,
                  "A feature or border that turns by more than this has a corner there, in degrees")

@@ -35,6 +35,7 @@ Json to_json(const FlattenReport& r) {
           {"min_area_stretch", r.min_area_stretch},
           {"max_area_stretch", r.max_area_stretch},
           {"free_boundary", r.free_boundary},
+          {"border_roundness", r.border_roundness},
           {"repaired_triangles", r.repaired_triangles},
           {"seconds", r.seconds}};
 }
@@ -77,6 +78,10 @@ Json to_json(const MeshReport& r) {
           {"crossings", r.crossings},
           {"trimmed", r.trimmed},
           {"straightened", r.straightened},
+          {"merged", r.merged},
+          {"added_samples", r.added_samples},
+          {"dropped_samples", r.dropped_samples},
+          {"retries", r.retries},
           {"convexity_splits", r.convexity_splits},
           {"conforming_edges", r.conforming_edges},
           {"arrangement_seconds", r.arrangement_seconds},
@@ -88,6 +93,8 @@ Json to_json(const MeshReport& r) {
 void add_json(Json& json, const TraceAndMeshReport& r) {
   json["epsilon_fraction"] = r.epsilon_fraction;
   json["attempts"] = r.attempts;
+  for (const auto& attempt : r.tried)
+    json["tried"].push_back({{"epsilon_fraction", attempt.epsilon_fraction}, {"count", attempt.count}});
   json["target_met"] = r.target_met;
   json["attempts_seconds"] = r.attempts_seconds;
   json["trace"] = to_json(r.trace);

@@ -74,7 +74,7 @@ class CrossingModel {
   std::vector<Patch> patches_;
 };
 
-struct Attempt {
+struct Trial {
   double log_epsilon = 0;
   double log_ratio = 0;  ///< log of count over target
   double off() const { return std::abs(std::exp(log_ratio) - 1); }
@@ -82,12 +82,12 @@ struct Attempt {
 
 /// Where to look next: the model scaled to the nearest attempt, or the secant through the two that enclose
 /// the target, kept inside what is known.
-double next_epsilon(const std::vector<Attempt>& attempts, const CrossingModel& model) {
+double next_epsilon(const std::vector<Trial>& attempts, const CrossingModel& model) {
   const auto nearest = *std::min_element(attempts.begin(), attempts.end(), [](const auto& a, const auto& b) {
     return std::abs(a.log_ratio) < std::abs(b.log_ratio);
   });
-  const Attempt *above = nullptr, *below = nullptr;  // the tightest attempts with too many and too few
-  for (const Attempt& a : attempts) {
+  const Trial *above = nullptr, *below = nullptr;  // the tightest attempts with too many and too few
+  for (const Trial& a : attempts) {
     if (a.log_ratio > 0 && (!above || a.log_epsilon > above->log_epsilon)) above = &a;
     if (a.log_ratio <= 0 && (!below || a.log_epsilon < below->log_epsilon)) below = &a;
   }
@@ -141,15 +141,16 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
 
   const CrossingModel model(surface, trace.density);
   options.density.epsilon_fraction = model.epsilon(wanted);
-  std::vector<Attempt> attempts;
+  std::vector<Trial> attempts;
   OpenMesh::PolyMesh best;
   TraceAndMeshReport of_best;
   LineNetwork lines_of_best;
   double best_off = 0;
   for (int i = 1;; ++i) {
     OpenMesh::PolyMesh result = run(1 - std::pow(0.6, i - 1), 1 - std::pow(0.6, i));
-    const double count =
-        static_cast<double>(target.target_faces > 0 ? result.n_faces() : result.n_vertices());
+    done.tried.push_back(
+        {options.density.epsilon_fraction, target.target_faces > 0 ? result.n_faces() : result.n_vertices()});
+    const double count = static_cast<double>(done.tried.back().count);
     attempts.push_back({std::log(options.density.epsilon_fraction), std::log(std::max(count, 0.5) / wanted)});
     const double off = attempts.back().off();
     done.attempts = i;
@@ -167,6 +168,7 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     options.density.epsilon_fraction = next;
   }
   of_best.attempts = done.attempts;
+  of_best.tried = done.tried;
   done = of_best;
   write_lines(surface, lines_of_best);
   const auto epsilon = provide_property(surface.connectivity(), property::epsilon);

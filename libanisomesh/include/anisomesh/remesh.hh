@@ -2,6 +2,7 @@
 #pragma once
 
 #include <OpenMesh/Core/Mesh/DefaultPolyMesh.hh>
+#include <vector>
 
 #include "anisomesh/curvature.hh"
 #include "anisomesh/features.hh"
@@ -16,7 +17,7 @@ namespace anisomesh {
 struct TargetOptions {
   size_t target_faces = 0;     ///< about so many faces; 0: no target
   size_t target_vertices = 0;  ///< about so many vertices; 0: no target; not both
-  double tolerance = 0.03;  ///< the search ends when the count is within this fraction of the target; (0, 1)
+  double tolerance = 0.05;  ///< the search ends when the count is within this fraction of the target; (0, 1)
   int max_attempts = 8;   ///< lines are traced at most so often; from the third on 10 % is near enough; >= 1
   void validate() const;  ///< \throw InvalidOption
 };
@@ -30,6 +31,12 @@ struct RemeshOptions : TargetOptions {
   void validate() const;  ///< \throw InvalidOption
 };
 
+/// One go at a target.
+struct Attempt {
+  double epsilon_fraction = 0;
+  size_t count = 0;  ///< faces, or vertices where these are the target
+};
+
 /// What the last three stages did.
 struct TraceAndMeshReport {
   TraceReport trace;
@@ -37,6 +44,7 @@ struct TraceAndMeshReport {
   MeshReport mesh;
   double epsilon_fraction = 0;  ///< that was used in the end
   int attempts = 1;             ///< times lines were traced to meet the target
+  std::vector<Attempt> tried;   ///< these; empty without a target
   bool target_met = true;       ///< within 10 %, or no target
   double attempts_seconds = 0;  ///< all of them
 };
