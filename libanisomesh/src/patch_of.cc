@@ -75,8 +75,8 @@ Patch patch_of(const SurfaceRef& surface) {
                         " component(s), " + std::to_string(loops.size()) +
                         " border loop(s) and Euler characteristic " + std::to_string(euler) +
                         " where a disc has 1, 1 and 1; " +
-                        (components != 1     ? "take one component at a time"
-                         : loops.size() == 0 ? "cut it open along a path of edges first"
+                        (components != 1 ? "take one component at a time"
+                         : loops.empty() ? "cut it open along a path of edges first"
                          : euler + static_cast<long>(loops.size()) == 2
                              ? "fill the holes that do not matter, or cut it from one border loop to the next"
                              : "cut its handles open first"));

@@ -9,8 +9,9 @@ struct UmbilicReport {
   size_t wedges = 0;      ///< index +1/2
   size_t trisectors = 0;  ///< index -1/2
   double index_sum = 0;   ///< sum of the indices of all faces
-  double border_turning =
-      0;  ///< turns of the field along the border loop, counter-clockwise in the plane, in full turns
+  /// Full turns of the field along the border loop, counter-clockwise in the plane, and along both sides of
+  /// the features; measured independently of the indices, and equal to their sum.
+  double border_turning = 0;
   double seconds = 0;
 };
 

@@ -10,13 +10,14 @@ namespace {
 
 using std::size_t;
 
-/// Below this a part is ordered as it comes: its factor is dense anyhow.
-constexpr size_t smallest_part = 12;
-
 class Dissection {
  public:
-  Dissection(size_t unknowns, const std::vector<std::pair<int, int>>& adjacent)
-      : offset_(unknowns + 1, 0), part_(unknowns, 0), seen_(unknowns, 0), order_(unknowns) {
+  Dissection(size_t unknowns, const std::vector<std::pair<int, int>>& adjacent, size_t largest_part)
+      : largest_part_(largest_part),
+        offset_(unknowns + 1, 0),
+        part_(unknowns, 0),
+        seen_(unknowns, 0),
+        order_(unknowns) {
     for (const auto& [a, b] : adjacent) {
       ++offset_[static_cast<size_t>(a) + 1];
       ++offset_[static_cast<size_t>(b) + 1];
@@ -32,7 +33,7 @@ class Dissection {
     run();
   }
 
-  std::vector<int> take() { return std::move(order_); }
+  Dissected take() { return {std::move(order_), std::move(undivided_)}; }
 
  private:
   struct Range {
@@ -45,8 +46,10 @@ class Dissection {
     while (!open.empty()) {
       const Range range = open.back();
       open.pop_back();
-      if (range.end - range.begin <= smallest_part) continue;
-      split(range, open);
+      if (range.end - range.begin > largest_part_)
+        split(range, open);
+      else
+        undivided_.emplace_back(range.begin, range.end);
     }
   }
 
@@ -120,6 +123,8 @@ class Dissection {
     open.push_back({middle, range.end});
   }
 
+  size_t largest_part_;
+  std::vector<std::pair<size_t, size_t>> undivided_;
   std::vector<int> offset_, neighbour_;
   std::vector<int> part_, seen_;  ///< the part and the last search an unknown was in
   std::vector<int> order_, queue_;
@@ -129,8 +134,9 @@ class Dissection {
 
 }  // namespace
 
-std::vector<int> nested_dissection(std::size_t unknowns, const std::vector<std::pair<int, int>>& adjacent) {
-  return Dissection(unknowns, adjacent).take();
+Dissected nested_dissection(std::size_t unknowns, const std::vector<std::pair<int, int>>& adjacent,
+                            std::size_t largest_part) {
+  return Dissection(unknowns, adjacent, largest_part).take();
 }
 
 }  // namespace anisomesh::detail

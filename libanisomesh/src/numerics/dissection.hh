@@ -7,12 +7,17 @@
 
 namespace anisomesh::detail {
 
-/// Nested dissection by level structures: the thinnest of the middle levels of a breadth first search parts
-/// the unknowns in two halves, which are ordered the same way; it comes after both. On the graph of a surface
-/// this fills little more than a graph partitioner's order and is found much faster. [George and Liu,
-/// An automatic nested dissection algorithm, 1978]
+/// An order in which the unknowns are eliminated, and the parts of it that are still free to be ordered.
+struct Dissected {
+  std::vector<int> order;                                  ///< the unknown that comes at each position
+  std::vector<std::pair<std::size_t, std::size_t>> parts;  ///< positions [first, last) of each undivided part
+};
+
+/// Nested dissection by level structures, down to parts of at most `largest_part` unknowns: the thinnest of
+/// the middle levels of a breadth first search parts the unknowns in two halves, which are divided the same
+/// way; it comes after both. [George and Liu, An automatic nested dissection algorithm, 1978]
 /// \param adjacent pairs of unknowns with an entry in the matrix, each at least once, either way round
-/// \return the unknown that comes at each position
-std::vector<int> nested_dissection(std::size_t unknowns, const std::vector<std::pair<int, int>>& adjacent);
+Dissected nested_dissection(std::size_t unknowns, const std::vector<std::pair<int, int>>& adjacent,
+                            std::size_t largest_part);
 
 }  // namespace anisomesh::detail

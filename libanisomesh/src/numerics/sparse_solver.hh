@@ -23,12 +23,13 @@ struct SymmetricEntries {
 /// Eigen's otherwise. The result does not depend on the number of threads.
 class CholeskySolver {
  public:
-  /// \throw SolverFailure if the matrix is not positive definite
+  /// \pre positive definite \throw SolverFailure if the factorization breaks down
   explicit CholeskySolver(const SymmetricEntries& matrix);
   ~CholeskySolver();
   CholeskySolver(const CholeskySolver&) = delete;
   CholeskySolver& operator=(const CholeskySolver&) = delete;
 
+  /// \throw SolverFailure if the system is singular
   std::vector<double> solve(const std::vector<double>& right_hand_side) const;
 
  private:
