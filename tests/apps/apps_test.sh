@@ -214,5 +214,22 @@ features)
   [ "$(count e.json)" -eq 0 ] || fail "dropped: $(count e.json)"
   ;;
 
+readme_says_what_help_says)
+  # The option table of the README says what --help says. $3 is the README.
+  anisomesh-remesh --help >help.txt
+  options=$(sed -n 's/^| `\(--[a-z-]*\)[^|]*| *\([^ |]*\) *|.*/\1 \2/p' "$3")
+  [ "$(wc -l <<<"$options")" -gt 20 ] || fail "no option table in $3"
+  while read -r option value; do
+    grep -q -- "$option" help.txt || fail "$option of the README is not in --help"
+    [[ $value =~ ^[0-9.]+$ ]] || continue
+    grep -Eq -- "$option [A-Z]+=$value( |$)" help.txt || fail "$option is not $value by default"
+  done <<<"$options"
+  grep -oE -- '--[a-z][a-z-]+' help.txt | sort -u >options.txt
+  while read -r option; do
+    case $option in --help | --version | --output) continue ;; esac
+    grep -q -- "$option" "$3" || fail "$option is not in the README"
+  done <options.txt
+  ;;
+
 *) fail "no case $case_name" ;;
 esac
