@@ -89,6 +89,10 @@ void add_density_options(Command& command, EpsilonFlags& epsilon, TraceOptions& 
                  "No spacing above this, fraction of the bounding box diagonal")
       ->type_name("S")
       ->group("Density");
+  app.add_option("--max-slope", options.density.max_slope,
+                 "Spacings change by at most this much of a length over that length, above 0")
+      ->type_name("S")
+      ->group("Density");
   app.add_option("--stop-fraction", options.stop_fraction,
                  "A line ends when nearer to another than this fraction of the spacing, in (0, 1)")
       ->type_name("F")

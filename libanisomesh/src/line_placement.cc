@@ -9,6 +9,8 @@ namespace anisomesh::detail {
 
 namespace {
 
+constexpr double kOffFence =
+    0.02;  // of the distance searched: a line that starts nearer has no room to begin
 constexpr double kSeedEvery = 0.5;  // spacings along a line between the seeds beside it
 constexpr double kParallel = 0.94;  // cosine: a fence this parallel to a line counts as a line
 
@@ -74,9 +76,10 @@ Vec2d Placement::line_direction(const SurfacePoint& at) const {
   return kind_ == LineKind::max ? max_direction(tensor) : min_direction(tensor);
 }
 
-// Distance to the nearest line, or fence that runs like one. Infinite beyond the bound.
+// Distance to the nearest line, or fence that runs like one; 0 on any fence. Infinite beyond the bound.
 double Placement::clearance(const SurfacePoint& at, double bound) const {
   const auto near = index_->nearest(at, bound);
+  if (near.fence.distance < kOffFence * bound) return 0;
   const bool parallel = std::abs(near.fence.direction | line_direction(at)) > kParallel;
   return std::min(near.line.distance, parallel ? near.fence.distance : near.line.distance);
 }

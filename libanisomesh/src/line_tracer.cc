@@ -14,6 +14,7 @@ constexpr double kFreeOfUmbilic = 1.0;  // spacings in which lines from one umbi
 constexpr double kUmbilicReach = 0.12;  // spacings from an umbilic at which a line ends there
 constexpr double kParallel = 0.94;      // cosine: a fence this parallel counts as a line
 constexpr double kParallelFence = 0.45;  // spacings
+constexpr double kSpeck = 0.02;          // spacings
 constexpr size_t kStepLimit = 50000;
 constexpr double kPullBack = 1e-3;  // of the last segment: what is entered keeps off the fence it ends at
 
@@ -132,6 +133,9 @@ void LineTracer::run(Half& half, int id, int umbilic, double crossings_of_other_
     head.arc = from.arc + half.sign * length / domain_.spacing(kind_, from.point);
     head.crossings = from.crossings + half.sign * length / domain_.spacing(other(kind_), from.point);
     if (made.reach.blocked) {
+      // A step that nearly ended on the fence leaves a speck of a segment; its point becomes the end itself.
+      const bool speck = length < kSpeck * domain_.spacing(kind_, head.point);
+      if (speck && half.points.size() > std::max<size_t>(half.entered, 1)) half.points.pop_back();
       half.points.push_back(head);
       half.reason = made.reach.border ? LineEnd::border : LineEnd::feature;
       return;

@@ -159,9 +159,14 @@ void PlaneDomain::make_neighbours(const SurfaceRef& surface) {
 }
 
 void PlaneDomain::make_spacing() {
+  constexpr double kRelativeNoise = 0.01;
   for (Node& node : nodes_) {
     double k_min = 0, k_max = 0;
     eigenvalues(node.tensor, k_min, k_max);
+    // Beside a large curvature a small one is not known better than this: without the threshold the noise of
+    // the estimate would space the lines along a cylinder.
+    const double noise = kRelativeNoise * std::max(std::abs(k_min), std::abs(k_max));
+    for (double* k : {&k_min, &k_max}) *k = std::copysign(std::max(std::abs(*k) - noise, 0.0), *k);
     node.spacing[static_cast<int>(LineKind::min)] = density_.min_line_spacing(k_min, k_max);
     node.spacing[static_cast<int>(LineKind::max)] = density_.max_line_spacing(k_min, k_max);
   }

@@ -13,7 +13,7 @@ struct DensityOptions {
   std::function<double(double)>
       transfer;  ///< F: curvature (1/length, >= 0) to curvature; applied instead of `adaptation`
   double max_spacing_fraction = 0.2;  ///< no spacing above this fraction of the diagonal; > 0
-  double max_slope = 0.2;  ///< spacings change by at most this much of a length over that length; > 0
+  double max_slope = 0.5;  ///< spacings change by at most this much of a length over that length; > 0
   void validate() const;   ///< \throw InvalidOption
 };
 

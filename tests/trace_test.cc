@@ -1,0 +1,214 @@
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "anisomesh/lines.hh"
+#include "catch.hh"
+#include "traced_surface.hh"
+
+using namespace anisomesh;
+
+namespace {
+
+std::vector<Vec3d> positions(const SurfaceRef& surface, const Line& line) {
+  std::vector<Vec3d> result;
+  for (const auto& p : line.points) result.push_back(position(surface, p));
+  return result;
+}
+
+size_t count(const LineNetwork& network, LineKind kind) {
+  return static_cast<size_t>(std::count_if(network.lines.begin(), network.lines.end(),
+                                           [kind](const Line& line) { return line.kind == kind; }));
+}
+
+TraceOptions with_epsilon(double fraction) {
+  TraceOptions options;
+  options.density.epsilon_fraction = fraction;
+  return options;
+}
+
+// Lines along x are min lines here: bent by 2 across, by 0.5 along.
+traced::Field straight() { return traced::constant(0.5, 2, M_PI / 2); }
+
+}  // namespace
+
+TEST_CASE("in a constant field lines are straight, parallel and at the spacing of equation 6", "[trace]") {
+  auto mesh = traced::square(20, straight());
+  trace_lines(mesh, with_epsilon(0.001));
+  const SurfaceRef surface = mesh;
+  const double epsilon = 0.001 * surface.diagonal();
+  std::vector<double> heights[2];
+  for (const Line& line : read_lines(mesh).lines) {
+    const int across = line.kind == LineKind::min ? 1 : 0;
+    const auto points = positions(surface, line);
+    for (const Vec3d& p : points) CHECK(p[across] == Approx(points.front()[across]).margin(1e-9));
+    CHECK(std::abs(points.front()[1 - across] - points.back()[1 - across]) == Approx(2));
+    CHECK(line.begin_reason == LineEnd::border);
+    CHECK(line.end_reason == LineEnd::border);
+    heights[across].push_back(points.front()[across]);
+  }
+  for (const int across : {0, 1}) {
+    auto& h = heights[across];
+    std::sort(h.begin(), h.end());
+    const double wanted = chord_spacing(across == 1 ? 2 : 0.5, epsilon);
+    REQUIRE(h.size() >= static_cast<size_t>(2 / wanted) - 1);
+    for (size_t i = 1; i < h.size(); ++i) CHECK(h[i] - h[i - 1] == Approx(wanted).epsilon(0.25));
+  }
+}
+
+TEST_CASE("lines on a half torus are its circles", "[trace]") {
+  auto mesh = traced::shape("half-torus", 20000);
+  TraceOptions options = with_epsilon(0.0015);
+  options.density.max_slope = 0.2;  // graded gently, so that no circle has to end
+  const auto report = trace_lines(mesh, options);
+  const SurfaceRef surface = mesh;
+  size_t points = 0, off = 0, gaps = 0, uneven = 0;
+  std::vector<double> rings;
+  for (const Line& line : read_lines(mesh).lines) {
+    // Angle that is constant along a true circle, and the radius that makes it a length.
+    std::vector<double> angle, radius;
+    for (const Vec3d& p : positions(surface, line)) {
+      const double axis = std::hypot(p[0], p[1]);
+      angle.push_back(line.kind == LineKind::min ? std::atan2(p[2], axis - 1) : std::atan2(p[1], p[0]));
+      radius.push_back(line.kind == LineKind::min ? 0.4 : axis);
+    }
+    auto sorted = angle;
+    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+    const double circle = sorted[sorted.size() / 2];
+    for (size_t i = 0; i < angle.size(); ++i, ++points)
+      off += radius[i] * std::abs(angle[i] - circle) > 0.002 * surface.diagonal();
+    if (line.kind == LineKind::min) rings.push_back(circle);
+  }
+  std::sort(rings.begin(), rings.end());
+  const double wanted = chord_spacing(1 / 0.4, 0.0015 * surface.diagonal());
+  for (size_t i = 1; i < rings.size(); ++i, ++gaps)
+    uneven += std::abs(2 * 0.4 * std::sin((rings[i] - rings[i - 1]) / 2) / wanted - 1) > 0.25;
+  CHECK(static_cast<double>(off) <= 0.01 * static_cast<double>(points));
+  CHECK(static_cast<double>(uneven) <= 0.1 * static_cast<double>(gaps));
+  CHECK(report.ends[static_cast<int>(LineEnd::border)] == 2 * (report.min_lines + report.max_lines));
+}
+
+TEST_CASE("a cylinder gets as many lines around it as there are along it at any epsilon", "[trace]") {
+  auto mesh = traced::shape("cylinder", 8000);
+  const SurfaceRef surface = mesh;
+  size_t max_lines[3];
+  int i = 0;
+  for (const double epsilon : {0.002, 0.0005, 0.000125}) {
+    trace_lines(mesh, with_epsilon(epsilon));
+    const auto network = read_lines(mesh);
+    const double arc = 2 * std::asin(chord_spacing(1, epsilon * surface.diagonal()) / 2);
+    CHECK(static_cast<double>(count(network, LineKind::min)) == Approx(M_PI / arc).epsilon(0.1).margin(1));
+    max_lines[i++] = count(network, LineKind::max);
+  }
+  CHECK(max_lines[0] >= 1);
+  CHECK(max_lines[2] <= max_lines[0] + 1);
+}
+
+TEST_CASE("lines around a wedge and a trisector: one and three of a kind end there", "[trace]") {
+  const auto at_umbilic = [](const SurfaceRef& surface, const LineNetwork& network, LineKind kind) {
+    const auto there = [&](const SurfacePoint& p) {
+      return (position(surface, p) - Vec3d(0.01, -0.02, 0)).norm() < 1e-9;
+    };
+    size_t ends = 0;
+    for (const Line& line : network.lines)
+      if (line.kind == kind)
+        ends += (there(line.points.front()) ? 1u : 0u) + (there(line.points.back()) ? 1u : 0u);
+    return ends;
+  };
+  for (const double sign : {1.0, -1.0}) {
+    auto mesh = traced::square(
+        31, [sign](double x, double y) { return Vec3d(2 + x - 0.01, sign * (y + 0.02), 2 - x + 0.01); });
+    trace_lines(mesh, with_epsilon(0.001));
+    const auto network = read_lines(mesh);
+    for (const LineKind kind : {LineKind::min, LineKind::max})
+      CHECK(at_umbilic(mesh, network, kind) == (sign > 0 ? 1u : 3u));
+  }
+}
+
+TEST_CASE("lines end on a feature exactly, and none crosses it", "[trace]") {
+  auto mesh = traced::square(20, straight());
+  for (const auto edge : mesh.edges())
+    if (mesh.point(edge.v0())[0] == 0 && mesh.point(edge.v1())[0] == 0) mesh.status(edge).set_feature(true);
+  const auto report = trace_lines(mesh, with_epsilon(0.001));
+  CHECK(report.ends[static_cast<int>(LineEnd::feature)] >= 10);
+  const SurfaceRef surface = mesh;
+  for (const Line& line : read_lines(mesh).lines) {
+    double low = 0, high = 0;
+    for (const Vec3d& p : positions(surface, line)) low = std::min(low, p[0]), high = std::max(high, p[0]);
+    CHECK((low > -1e-12 || high < 1e-12));
+    if (line.end_reason != LineEnd::feature) continue;
+    CHECK(position(surface, line.points.back())[0] == Approx(0).margin(1e-15));
+    CHECK(line.points.back().barycentric.min() == 0);
+  }
+}
+
+TEST_CASE("circles are closed", "[trace]") {
+  auto mesh = traced::square(60, [](double x, double y) {
+    const double r = std::hypot(x, y) + 1e-9;
+    return detail::tensor_from(0.5, 2, {x / r, y / r});  // min lines run around the centre
+  });
+  const auto report = trace_lines(mesh, with_epsilon(0.001));
+  CHECK(report.closed_lines >= 5);
+  const SurfaceRef surface = mesh;
+  for (const Line& line : read_lines(mesh).lines) {
+    if (!line.closed) continue;
+    const auto p = positions(surface, line);
+    double turn = 0;
+    for (size_t i = 0; i < p.size(); ++i) {
+      const Vec3d& q = p[(i + 1) % p.size()];
+      turn += std::atan2(p[i][0] * q[1] - p[i][1] * q[0], p[i][0] * q[0] + p[i][1] * q[1]);
+    }
+    CHECK(std::abs(turn) == Approx(2 * M_PI));
+  }
+}
+
+TEST_CASE("the same lines come out at any scale and with any number of threads", "[trace]") {
+  const traced::Field field = [](double x, double y) {
+    return detail::tensor_from(0.3 + 0.2 * x, 2 + 1.5 * y, {std::cos(x + y * y), std::sin(x + y * y)});
+  };
+  auto reference = traced::square(30, field);
+  trace_lines(reference);
+  const auto same = [&](const OpenMesh::TriMesh& mesh) {
+    const auto equal = [&](const auto& declaration) {
+      return mesh.property(require_property(mesh, declaration)) ==
+             reference.property(require_property(reference, declaration));
+    };
+    CHECK(equal(property::line_table));
+    CHECK(equal(property::line_faces));
+    CHECK(equal(property::line_barycentrics));
+  };
+  for (const double scale : {0x1p-20, 0x1p20}) {
+    auto mesh = traced::square(30, field, scale);
+    trace_lines(mesh);
+    same(mesh);
+  }
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  auto mesh = traced::square(30, field);
+  trace_lines(mesh);
+  same(mesh);
+}
+
+TEST_CASE("every end of a line has its reason, and random checks find few gaps", "[trace]") {
+  auto mesh = traced::shape("wave", 5000);
+  TraceOptions options;
+  const auto report = trace_lines(mesh, options);
+  CHECK(report.coverage_seeds <= (report.min_lines + report.max_lines) / 10);
+  size_t ends = 0;
+  for (const size_t n : report.ends) ends += n;
+  CHECK(ends == 2 * (report.min_lines + report.max_lines));
+  CHECK(report.ends[static_cast<int>(LineEnd::step_limit)] == 0);
+}
+
+TEST_CASE("a cancelled or refused trace leaves the mesh as it was", "[trace]") {
+  auto mesh = traced::square(20, straight());
+  CHECK_THROWS_AS(trace_lines(mesh, {}, [](double) { return false; }), Cancelled);
+  TraceOptions options;
+  options.stop_fraction = 1;
+  CHECK_THROWS_AS(trace_lines(mesh, options), InvalidOption);
+  CHECK(!has_property(mesh, property::line_table));
+  CHECK(!has_property(mesh, property::epsilon));
+  auto umbilic = require_property(mesh, property::umbilic);
+  mesh.remove_property(umbilic);
+  CHECK_THROWS_WITH(trace_lines(mesh), Catch::Contains("find_umbilics"));
+}
