@@ -105,10 +105,6 @@ void add_density_options(Command& command, EpsilonFlags& epsilon, TraceOptions& 
                  "Lines shorter than so many spacings of the other kind are dropped")
       ->type_name("N")
       ->group("Density");
-  app.add_option("--max-slope", options.density.max_slope,
-                 "Spacings change by at most this much of a length over that length")
-      ->type_name("S")
-      ->group("Density");
   app.add_option("--seed", options.seed, "Of the random samples that look for gaps")
       ->type_name("N")
       ->group("Density");

@@ -23,7 +23,7 @@ struct MeshOptions {
   double corner_angle_degrees = 45;  ///< as in feature_skeleton()
   /// A chain of samples may be straightened as long as they stay this near to it, in units of the epsilon the
   /// lines were traced with; infinite: straighten wherever it is planar, as the paper does; >= 0
-  double chain_tolerance = 2;
+  double chain_tolerance = 2.6;
   /// A cell that lies this near to the surface does without its isotropic samples, one that lies farther away
   /// gets further ones, in the same units; infinite: all samples are used as they are; > 0
   double cell_tolerance = 4;
