@@ -255,6 +255,7 @@ std::vector<Piece> join_triangles(const RegionCorners& region, std::vector<Piece
     return 1.0;
   };
   std::vector<double> costs;
+  costs.reserve(pieces.size());
   for (const Piece& piece : pieces) costs.push_back(cost_of(piece));
   while (true) {
     std::map<std::pair<int, int>, size_t> owner;

@@ -254,6 +254,7 @@ std::vector<Polygon> Soundness::repair(std::vector<Polygon>& polygons, const Net
     size_t repaired = 0;
     // A repair may move polygons in the array, so each is found again by its corners.
     std::vector<Polygon> waiting;
+    waiting.reserve(bad.size());
     for (const int p : bad) waiting.push_back(polygons[at(p)]);
     for (const Polygon& p : waiting) {
       const auto place = std::find(polygons.begin(), polygons.end(), p);
@@ -264,6 +265,7 @@ std::vector<Polygon> Soundness::repair(std::vector<Polygon>& polygons, const Net
     if (repaired == 0) break;
   }
   std::vector<Polygon> left;
+  left.reserve(bad.size());
   for (const int p : bad) left.push_back(polygons[at(p)]);
   return left;
 }
