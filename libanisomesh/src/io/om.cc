@@ -115,7 +115,8 @@ Mesh read_om(const std::string& text, const std::string& path) {
   mesh.request_edge_status();
   mesh.request_face_status();
   mesh.request_vertex_texcoords2D();
-  io::Options options = io::Options::Status | io::Options::VertexTexCoord;
+  // Custom: OpenMesh 11 asks for it where 9 always reads and writes custom properties.
+  io::Options options = io::Options::Status | io::Options::VertexTexCoord | io::Options::Custom;
   WatchedBuffer buffer(text);
   std::istream stream(&buffer);
   bool read = false;
@@ -141,7 +142,7 @@ Mesh read_om(const std::string& text, const std::string& path) {
 
 template <class Mesh>
 std::string write_om(const Mesh& mesh, const std::string& path) {
-  io::Options options = io::Options::Binary;
+  io::Options options = io::Options::Binary | io::Options::Custom;
   if (mesh.has_vertex_status() && mesh.has_edge_status() && mesh.has_face_status())
     options += io::Options::Status;
   if (mesh.has_vertex_texcoords2D()) options += io::Options::VertexTexCoord;
