@@ -81,13 +81,12 @@ double alignment(const ReferenceSurface& reference, const PolygonSoup& result, c
     const auto halfedge = mesh.halfedge_handle(OpenMesh::EdgeHandle(static_cast<int>(e)), 0);
     const Vec3d &a = result.points[static_cast<size_t>(mesh.from_vertex_handle(halfedge).idx())],
                 &b = result.points[static_cast<size_t>(mesh.to_vertex_handle(halfedge).idx())];
-    // Three places on each edge, since a long one passes through regions of different anisotropy.
-    for (const double t : {1.0 / 6, 0.5, 5.0 / 6}) {
-      const Frame frame = frame_at(reference, a + t * (b - a));
-      if (!(frame.anisotropy > threshold)) continue;
-      weights[e] += (b - a).norm() / 3;
-      angles[e] += angle_to_frame(frame, b - a) * (b - a).norm() / 3;
-    }
+    // At its middle: towards its ends a chord leaves the direction of a line that turns within the surface,
+    // however well it follows it, and the grid of a torus along its own circles would not be aligned.
+    const Frame frame = frame_at(reference, 0.5 * (a + b));
+    if (!(frame.anisotropy > threshold)) return;
+    weights[e] = (b - a).norm();
+    angles[e] = angle_to_frame(frame, b - a) * weights[e];
   });
   double sum = 0, weight = 0;
   for (size_t e = 0; e < angles.size(); ++e) sum += angles[e], weight += weights[e];
