@@ -39,7 +39,7 @@ void write_lines(const SurfaceRef& surface, const LineNetwork& network);
 struct TraceOptions {
   DensityOptions density;
   double stop_fraction =
-      0.47;  ///< a line ends when nearer to one of its kind than this fraction of the spacing; (0, 1)
+      0.5;  ///< a line ends when nearer to one of its kind than this fraction of the spacing; (0, 1)
   double seed_fraction =
       0.8;  ///< none starts nearer to one of its kind than this fraction of the spacing; [stop_fraction, 1]
   double min_crossings = 1.5;  ///< a shorter line, in spacings of the other kind, is dropped; >= 0
