@@ -6,6 +6,7 @@
 #include <set>
 
 #include "compare_parts.hh"
+#include "numerics/disjoint_sets.hh"
 
 namespace anisomesh::detail {
 
@@ -13,23 +14,6 @@ namespace {
 
 /// A vertex is on an edge when nearer to it than this share of the edge's length, and as far from its ends.
 constexpr double on_edge = 1e-5;
-
-class DisjointSets {
- public:
-  explicit DisjointSets(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int i) {
-    while (parent_[static_cast<size_t>(i)] != i) {
-      auto& parent = parent_[static_cast<size_t>(i)];
-      parent = parent_[static_cast<size_t>(parent)];
-      i = parent;
-    }
-    return i;
-  }
-  void join(int i, int j) { parent_[static_cast<size_t>(root(i))] = root(j); }
-
- private:
-  std::vector<int> parent_;
-};
 
 struct Topology {
   int components = 0, euler_characteristic = 0, border_loops = 0;
@@ -39,12 +23,13 @@ struct Topology {
 Topology topology_of(const OpenMesh::PolyConnectivity& mesh) {
   Topology topology;
   DisjointSets sets(mesh.n_vertices());
-  for (const auto edge : mesh.edges()) sets.join(edge.v0().idx(), edge.v1().idx());
+  const auto element = [](OpenMesh::VertexHandle v) { return static_cast<size_t>(v.idx()); };
+  for (const auto edge : mesh.edges()) sets.join(element(edge.v0()), element(edge.v1()));
   int vertices = 0;
   for (const auto vertex : mesh.vertices()) {
     if (mesh.is_isolated(vertex)) continue;
     ++vertices;
-    if (sets.root(vertex.idx()) == vertex.idx()) ++topology.components;
+    if (sets.root(element(vertex)) == element(vertex)) ++topology.components;
   }
   topology.euler_characteristic =
       vertices - static_cast<int>(mesh.n_edges()) + static_cast<int>(mesh.n_faces());
@@ -99,14 +84,14 @@ size_t count_non_manifold_vertices(const std::vector<std::vector<int>>& faces, s
                                                        face[(i + 1) % face.size()]);
   size_t count = 0;
   for (const auto& link : links) {
-    std::map<int, int> local;
+    std::map<int, size_t> local;
     for (const auto& [a, b] : link) local.emplace(a, 0), local.emplace(b, 0);
-    int next = 0;
+    size_t next = 0;
     for (auto& [vertex, index] : local) index = next++;
     DisjointSets sets(local.size());
     for (const auto& [a, b] : link) sets.join(local[a], local[b]);
-    std::set<int> fans;
-    for (int i = 0; i < next; ++i) fans.insert(sets.root(i));
+    std::set<size_t> fans;
+    for (size_t i = 0; i < next; ++i) fans.insert(sets.root(i));
     count += fans.size() > 1 ? 1 : 0;
   }
   return count;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <queue>
 #include <set>
 
 #include "anisomesh/properties.hh"
 #include "anisomesh/smoothing.hh"
+#include "numerics/disjoint_sets.hh"
 #include "numerics/proximity.hh"
 
 namespace anisomesh::detail {
@@ -41,27 +41,6 @@ double mean_curvature(const SurfaceRef& surface, const PlaneInput& input) {
   }
   return total > 0 ? sum / total : 0;
 }
-
-class DisjointSets {
- public:
-  explicit DisjointSets(size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int i) {
-    while (parent_[static_cast<size_t>(i)] != i) {
-      int& up = parent_[static_cast<size_t>(i)];
-      up = parent_[static_cast<size_t>(up)];
-      i = up;
-    }
-    return i;
-  }
-  void join(int a, int b) {
-    a = find(a);
-    b = find(b);
-    parent_[static_cast<size_t>(std::max(a, b))] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 // The halfedge opposite corner i, in the order of SurfaceRef::corners().
 OpenMesh::HalfedgeHandle opposite_halfedge(const OpenMesh::TriConnectivity& mesh, OpenMesh::FaceHandle face,
@@ -120,14 +99,14 @@ void PlaneDomain::make_nodes(const SurfaceRef& surface, const PlaneInput& input)
     const auto h = mesh.halfedge_handle(edge, 0);
     const auto left = mesh.face_handle(h), right = mesh.opposite_face_handle(h);
     for (const auto v : {mesh.from_vertex_handle(h), mesh.to_vertex_handle(h)})
-      sides.join(3 * left.idx() + corner_of(surface, left, v),
-                 3 * right.idx() + corner_of(surface, right, v));
+      sides.join(static_cast<size_t>(3 * left.idx() + corner_of(surface, left, v)),
+                 static_cast<size_t>(3 * right.idx() + corner_of(surface, right, v)));
   }
   std::vector<int> number(3 * faces_.size(), -1), count;
   for (const auto f : mesh.all_faces()) {
     const auto corners = surface.corners(f);
     for (int i = 0; i < 3; ++i) {
-      int& id = number[static_cast<size_t>(sides.find(3 * f.idx() + i))];
+      int& id = number[sides.root(static_cast<size_t>(3 * f.idx() + i))];
       const size_t vertex = static_cast<size_t>(corners.vertex[i].idx());
       if (id < 0) {
         id = static_cast<int>(nodes_.size());

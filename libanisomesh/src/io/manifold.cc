@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include "io/soup.hh"
+#include "numerics/disjoint_sets.hh"
 
 namespace anisomesh::detail {
 
@@ -54,24 +55,6 @@ struct Sides {
   std::vector<size_t> sorted;
 };
 
-/// Union-find with the lowest member as the representative.
-class Groups {
- public:
-  explicit Groups(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), size_t{0}); }
-  size_t find(size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(size_t a, size_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<size_t> parent_;
-};
-
 }  // namespace
 
 void orient(Soup& soup, ReadReport& report) {
@@ -119,7 +102,7 @@ void orient(Soup& soup, ReadReport& report) {
 void split_non_manifold(Soup& soup, ReadReport& report) {
   const Sides sides(soup);
   // Corners at one vertex whose faces share a proper edge there belong to one fan.
-  Groups fans(soup.corners.size());
+  DisjointSets fans(soup.corners.size());
   sides.for_each_pair(soup, [&](size_t a, size_t b) {
     if (soup.corners[a] == soup.corners[b]) return;  // they disagree on orientation
     fans.join(a, sides.next[b]);
@@ -129,7 +112,7 @@ void split_non_manifold(Soup& soup, ReadReport& report) {
   std::vector<size_t> fan_of(soup.points.size(), size_t(-1));
   std::vector<int> copy_of(soup.corners.size(), -1);
   for (size_t i = 0; i < soup.corners.size(); ++i) {
-    const size_t v = static_cast<size_t>(soup.corners[i]), fan = fans.find(i);
+    const size_t v = static_cast<size_t>(soup.corners[i]), fan = fans.root(i);
     if (fan_of[v] == size_t(-1)) fan_of[v] = fan;
     if (fan_of[v] == fan) continue;
     if (copy_of[fan] < 0) {
