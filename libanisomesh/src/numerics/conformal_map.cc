@@ -54,8 +54,8 @@ class DirichletProblem {
     for (const int b : patch.border) unknown_[static_cast<size_t>(b)] = -1;
     for (int& u : unknown_)
       if (u == 0) u = unknowns_++;
-    SymmetricEntries matrix;
-    matrix.size = static_cast<size_t>(unknowns_);
+    SymmetricEntries matrix(static_cast<size_t>(unknowns_));
+    matrix.reserve(edges_.size());
     for (const Edge& e : edges_) {
       const int i = index(e.from), j = index(e.to);
       if (i >= 0) matrix.add(i, i, e.weight);
@@ -173,9 +173,10 @@ class NeumannProblem {
  public:
   NeumannProblem(const Patch& patch, const std::vector<Edge>& edges, const std::vector<double>& defects)
       : patch_(patch), defects_(defects) {
-    SymmetricEntries matrix;  // the last vertex is pinned to 0: only differences of the result matter
-    matrix.size = defects.size() - 1;
-    const int pinned = static_cast<int>(matrix.size);
+    // The last vertex is pinned to 0: only differences of the result matter.
+    SymmetricEntries matrix(defects.size() - 1);
+    matrix.reserve(edges.size());
+    const int pinned = static_cast<int>(matrix.size());
     for (const Edge& e : edges) {
       if (e.from != pinned) matrix.add(e.from, e.from, e.weight);
       if (e.to != pinned) matrix.add(e.to, e.to, e.weight);
