@@ -1,0 +1,78 @@
+#include "linear_field.hh"
+
+#include <cmath>
+
+#include "numerics/tensor2d.hh"
+
+namespace anisomesh::detail {
+
+namespace {
+
+// Derivatives of the deviator by the two coordinates.
+struct DeviatorGradient {
+  Vec2d x, y;
+  explicit DeviatorGradient(const LinearField& field) {
+    const Vec2d u = field.corner[1] - field.corner[0], v = field.corner[2] - field.corner[0];
+    const Vec2d du = deviator(field.tensor[1] - field.tensor[0]);
+    const Vec2d dv = deviator(field.tensor[2] - field.tensor[0]);
+    const double area = cross2(u, v);
+    x = (v[1] * du - u[1] * dv) / area;
+    y = (u[0] * dv - v[0] * du) / area;
+  }
+};
+
+// Of three directions the one in the middle, where they lie on one side.
+double middle_of_three(const std::vector<double>& angles) {
+  double largest_gap = -1;
+  size_t after = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    double gap = angles[(i + 1) % 3] - angles[i];
+    if (gap < 0) gap += 2 * M_PI;
+    if (gap > largest_gap) largest_gap = gap, after = i;
+  }
+  return angles[(after + 2) % 3];
+}
+
+}  // namespace
+
+double turning_length(const LinearField& field, const Vec3d& tensor_here) {
+  const DeviatorGradient g(field);
+  const double gradient = std::sqrt(g.x.sqrnorm() + g.y.sqrnorm());
+  return deviator_norm(tensor_here) / gradient;
+}
+
+std::vector<Vec2d> separatrix_directions(const LinearField& field, int index, LineKind kind) {
+  const DeviatorGradient gradient(field);
+  const Vec2d gx = gradient.x, gy = gradient.y;
+  // Along a separatrix the deviator, seen from the umbilic, is an eigenvector of itself: its angle is twice
+  // that of the ray, up to a half turn that tells min from max.
+  const double sign = kind == LineKind::max ? 1 : -1;
+  const auto off_ray = [&](double angle) {
+    const Vec2d d = std::cos(angle) * gx + std::sin(angle) * gy;
+    return sign * cross2(Vec2d(std::cos(2 * angle), std::sin(2 * angle)), d);
+  };
+  const auto along = [&](double angle) {
+    const Vec2d d = std::cos(angle) * gx + std::sin(angle) * gy;
+    return sign * (d | Vec2d(std::cos(2 * angle), std::sin(2 * angle)));
+  };
+  std::vector<double> angles;
+  constexpr int kSamples = 360;
+  const double step = 2 * M_PI / kSamples;
+  for (int i = 0; i < kSamples; ++i) {
+    double low = i * step, high = (i + 1) * step;
+    if ((off_ray(low) < 0) == (off_ray(high) < 0)) continue;
+    const bool low_negative = off_ray(low) < 0;
+    for (int k = 0; k < 40; ++k) {
+      const double middle = 0.5 * (low + high);
+      ((off_ray(middle) < 0) == low_negative ? low : high) = middle;
+    }
+    if (along(low) > 0) angles.push_back(low);
+  }
+  // A wedge with three rays has them on one side: the middle one stands for them.
+  if (index > 0 && angles.size() == 3) angles = {middle_of_three(angles)};
+  std::vector<Vec2d> directions;
+  for (const double angle : angles) directions.emplace_back(std::cos(angle), std::sin(angle));
+  return directions;
+}
+
+}  // namespace anisomesh::detail

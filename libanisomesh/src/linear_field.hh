@@ -1,0 +1,23 @@
+// A tensor field that is linear in a triangle: how it turns, and how lines leave its umbilic.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "anisomesh/lines.hh"
+
+namespace anisomesh::detail {
+
+/// One triangle of a tensor field that is linear in it.
+struct LinearField {
+  std::array<Vec2d, 3> corner;
+  std::array<Vec3d, 3> tensor;
+};
+
+/// |deviator| / |its gradient|, in the unit of the corners; infinite where the field is constant.
+double turning_length(const LinearField& field, const Vec3d& tensor_here);
+
+/// Unit directions in which the lines of a kind leave the umbilic (of this index) in the triangle.
+std::vector<Vec2d> separatrix_directions(const LinearField& field, int index, LineKind kind);
+
+}  // namespace anisomesh::detail
