@@ -280,5 +280,5 @@ TEST_CASE("smoothing checks its options, and changes nothing when it fails or ha
   CHECK(smooth_tensors(mesh, options).mean_change == 0);
   CHECK(tensors_of(mesh) == before);
   auto bare = make_shape("dome");
-  CHECK_THROWS_WITH(smooth_tensors(bare), Catch::Contains("run flatten() first"));
+  CHECK_THROWS_WITH(smooth_tensors(bare), Catch::Contains("run estimate_curvature() first"));
 }

@@ -103,12 +103,19 @@ NodeNeighbours node_neighbours(const SurfaceRef& surface, const CutSurface& cut)
 std::vector<Vec3d> one_sided_values(const CutSurface& cut, const NodeNeighbours& neighbours,
                                     const std::vector<Vec3d>& at_vertices) {
   std::vector<Vec3d> values(cut.nodes());
+  for (size_t n = 0; n < values.size(); ++n)
+    values[n] = at_vertices[static_cast<size_t>(cut.vertex_of_node[n])];
+  return one_sided_values(cut, neighbours, std::move(values),
+                          [](size_t, size_t, const Vec3d& tensor) { return tensor; });
+}
+
+std::vector<Vec3d> one_sided_values(
+    const CutSurface& cut, const NodeNeighbours& neighbours, std::vector<Vec3d> values,
+    const std::function<Vec3d(size_t from, size_t to, const Vec3d& tensor)>& carry) {
   std::vector<char> known(cut.nodes());
   std::vector<size_t> open;
   for (size_t n = 0; n < values.size(); ++n) {
-    const auto vertex = static_cast<size_t>(cut.vertex_of_node[n]);
-    values[n] = at_vertices[vertex];
-    known[n] = !cut.on_feature[vertex];
+    known[n] = !cut.on_feature[static_cast<size_t>(cut.vertex_of_node[n])];
     if (!known[n]) open.push_back(n);
   }
   // Nodes whose neighbours all lie on features get their values from those, once they have some.
@@ -120,7 +127,7 @@ std::vector<Vec3d> one_sided_values(const CutSurface& cut, const NodeNeighbours&
       for (int k = neighbours.offset[n]; k < neighbours.offset[n + 1]; ++k) {
         const auto other = static_cast<size_t>(neighbours.node[static_cast<size_t>(k)]);
         if (!known[other]) continue;
-        sum += values[other];
+        sum += carry(other, n, values[other]);
         ++count;
       }
       if (count > 0) found.emplace_back(n, sum / count);

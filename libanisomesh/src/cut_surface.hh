@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "anisomesh/surface.hh"
@@ -34,5 +35,11 @@ NodeNeighbours node_neighbours(const SurfaceRef& surface, const CutSurface& cut)
 /// where the whole part of the surface between features has no vertex off them. [ACDLD03, section 2.5]
 std::vector<Vec3d> one_sided_values(const CutSurface& cut, const NodeNeighbours& neighbours,
                                     const std::vector<Vec3d>& at_vertices);
+
+/// The same where each node has a frame of its own. \param at_nodes what a node has of its vertex, in its
+/// frame \param carry takes a tensor from the frame of one node to that of another
+std::vector<Vec3d> one_sided_values(
+    const CutSurface& cut, const NodeNeighbours& neighbours, std::vector<Vec3d> at_nodes,
+    const std::function<Vec3d(size_t from, size_t to, const Vec3d& tensor)>& carry);
 
 }  // namespace anisomesh::detail

@@ -246,4 +246,19 @@ FlattenReport flatten(const SurfaceRef& surface, const Progress& progress) {
   return report;
 }
 
+bool is_flattened(const SurfaceRef& surface) { return has_property(surface.connectivity(), property::uv); }
+
+void unflatten(const SurfaceRef& surface) {
+  auto& mesh = surface.connectivity();
+  const auto remove = [&mesh](auto declaration) {
+    if (has_property(mesh, declaration)) {
+      auto handle = require_property(mesh, declaration);
+      mesh.remove_property(handle);
+    }
+  };
+  remove(property::uv);
+  remove(property::area_stretch);
+  remove(property::tensor2d);
+}
+
 }  // namespace anisomesh

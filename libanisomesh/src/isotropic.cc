@@ -7,7 +7,7 @@
 
 #include "anisomesh/lines.hh"
 #include "line_placement.hh"
-#include "plane_domain.hh"
+#include "make_domain.hh"
 
 namespace anisomesh {
 
@@ -165,9 +165,9 @@ IsotropicReport place_isotropic_samples(const SurfaceRef& surface, const TraceOp
   const auto start = std::chrono::steady_clock::now();
   options.validate();
   LineNetwork network = read_lines(surface);
-  const detail::PlaneDomain domain(surface, detail::read_plane_input(surface), options.density);
+  const auto domain = detail::make_domain(surface, options.density);
   report_progress(progress, 0);
-  SamplePlacement placement(domain, options.seed);
+  SamplePlacement placement(*domain, options.seed);
   auto umbilics = placement.umbilic_candidates(network), anywhere = placement.random_candidates();
   placement.enter_lines(network, {&umbilics, &anywhere});
   report_progress(progress, 0.3);

@@ -140,6 +140,10 @@ void LineTracer::run(Half& half, int id, int umbilic, double crossings_of_other_
       half.reason = made.reach.border ? LineEnd::border : LineEnd::feature;
       return;
     }
+    if (made.reach.fraction < 1) {  // the walk gave up at a vertex that it cannot get past
+      half.reason = LineEnd::step_limit;
+      return;
+    }
     if (hits_umbilic(half, head, umbilic) || ends_here(half, head, id, umbilic)) return;
     half.points.push_back(head);
 

@@ -8,7 +8,7 @@
 #include "anisomesh/lines.hh"
 #include "anisomesh/properties.hh"
 #include "line_placement.hh"
-#include "plane_domain.hh"
+#include "make_domain.hh"
 
 namespace anisomesh {
 
@@ -73,9 +73,9 @@ void TraceOptions::validate() const {
 TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& options, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   options.validate();
-  const detail::PlaneDomain domain(surface, detail::read_plane_input(surface), options.density);
+  const auto domain = detail::make_domain(surface, options.density);
   report_progress(progress, 0);
-  BothKinds both(domain, options, progress);
+  BothKinds both(*domain, options, progress);
   both.run();
 
   TraceReport report;
@@ -95,7 +95,7 @@ TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& options, 
   report_progress(progress, 1);
 
   auto& mesh = surface.connectivity();
-  mesh.property(provide_property(mesh, property::epsilon)) = domain.epsilon();
+  mesh.property(provide_property(mesh, property::epsilon)) = domain->epsilon();
   write_lines(surface, network);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

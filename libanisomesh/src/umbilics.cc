@@ -4,10 +4,12 @@
 #include <chrono>
 #include <cmath>
 
+#include "anisomesh/flatten.hh"
 #include "anisomesh/properties.hh"
 #include "anisomesh/smoothing.hh"
 #include "cut_surface.hh"
 #include "numerics/tensor2d.hh"
+#include "surface_umbilics.hh"
 #include "umbilic_analysis.hh"
 
 namespace anisomesh {
@@ -63,30 +65,40 @@ double turning_of_border(const SurfaceRef& surface, const CornerDeviators& devia
   return radians / (4 * pi);  // the deviator turns twice as fast as the directions
 }
 
+/// In the plane, where one frame does for all.
+SurfaceUmbilics umbilics_in_plane(const SurfaceRef& surface) {
+  const auto deviators = corner_deviators(surface);
+  SurfaceUmbilics result;
+  result.doubled_index.assign(deviators.size(), 0);
+  result.position.assign(deviators.size(), Vec3d(0, 0, 0));
+  for (size_t f = 0; f < deviators.size(); ++f) {
+    result.doubled_index[f] = doubled_index(deviators[f]);
+    if (result.doubled_index[f] != 0) result.position[f] = degenerate_point(deviators[f]);
+  }
+  result.turning = turning_of_border(surface, deviators);
+  return result;
+}
+
 }  // namespace
 
 UmbilicReport find_umbilics(const SurfaceRef& surface) {
   const auto start = std::chrono::steady_clock::now();
   auto& mesh = surface.connectivity();
-  require_property(mesh, property::uv);
-  const auto deviators = corner_deviators(surface);
+  const auto found =
+      is_flattened(surface)
+          ? umbilics_in_plane(surface)
+          : umbilics_on_surface(surface, surface_field(surface, read_surface_tensors(surface)));
   UmbilicReport report;
-  std::vector<int> kind(deviators.size(), 0);
-  std::vector<Vec3d> position(deviators.size(), Vec3d(0, 0, 0));
-  for (size_t f = 0; f < deviators.size(); ++f) {
-    kind[f] = doubled_index(deviators[f]);
-    if (kind[f] == 0) continue;
-    position[f] = degenerate_point(deviators[f]);
-    ++(kind[f] > 0 ? report.wedges : report.trisectors);
-  }
+  for (const int halves : found.doubled_index)
+    (halves > 0 ? report.wedges : report.trisectors) += static_cast<size_t>(std::abs(halves));
   report.index_sum = 0.5 * (static_cast<double>(report.wedges) - static_cast<double>(report.trisectors));
-  report.border_turning = turning_of_border(surface, deviators);
+  report.border_turning = found.turning;
 
   const auto umbilic = provide_property(mesh, property::umbilic);
   const auto umbilic_position = provide_property(mesh, property::umbilic_position);
   for (const auto f : mesh.all_faces()) {
-    mesh.property(umbilic, f) = kind[static_cast<size_t>(f.idx())];
-    mesh.property(umbilic_position, f) = position[static_cast<size_t>(f.idx())];
+    mesh.property(umbilic, f) = found.doubled_index[static_cast<size_t>(f.idx())];
+    mesh.property(umbilic_position, f) = found.position[static_cast<size_t>(f.idx())];
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

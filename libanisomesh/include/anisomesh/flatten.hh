@@ -27,4 +27,12 @@ struct FlattenReport {
 /// Cancelled
 FlattenReport flatten(const SurfaceRef& surface, const Progress& progress = {});
 
+/// Whether flatten() has run on the mesh: the stages after it then work in the plane, otherwise on the
+/// surface.
+bool is_flattened(const SurfaceRef& surface);
+
+/// Takes the results of flatten() off the mesh (uv, area_stretch, tensor2d), so that the stages after it work
+/// on the surface. Texture coordinates stay.
+void unflatten(const SurfaceRef& surface);
+
 }  // namespace anisomesh

@@ -57,6 +57,12 @@ inline constexpr OnVertices<double> area_stretch{"anisomesh:area_stretch", "flat
 /// and k_max and the eigenvector of k_min is the image of gamma_min. Smoothed in place by smooth_tensors().
 inline constexpr OnVertices<Vec3d> tensor2d{"anisomesh:tensor2d", "flatten"};
 
+// --- written by smooth_tensors() where the surface is not flattened
+// -----------------------------------------------------
+/// Smoothed curvature tensor in space, tangent to `normal`, as `tensor` is: (xx, xy, xz, yy, yz, zz),
+/// 1/length.
+inline constexpr OnVertices<Vec6d> surface_tensor{"anisomesh:surface_tensor", "smooth_tensors"};
+
 // --- written by find_umbilics()
 // ------------------------------------------------------------------------------------
 /// 0: no umbilic in this face, 1: a wedge (index +1/2), -1: a trisector (index -1/2).

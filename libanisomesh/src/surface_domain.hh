@@ -1,0 +1,50 @@
+// The surface itself as a domain for tracing: no parameterization, any topology.
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include "face_domain.hh"
+#include "linear_field.hh"
+#include "surface_flood.hh"
+
+namespace anisomesh::detail {
+
+/// What a surface domain is made of.
+struct SurfaceInput {
+  std::vector<std::array<int, 3>> corner_node;       ///< of each face: sides of vertices
+  std::vector<Vec3d> node_tensors;                   ///< of each node, in any frame of its tangent plane
+  std::vector<std::array<Vec3d, 3>> corner_tensors;  ///< of each face, in its frame (UnfoldedFaces)
+  std::vector<UmbilicPoint> umbilics;
+};
+
+/// Reads the properties that smooth_tensors() and find_umbilics() have written.
+SurfaceInput read_surface_input(const SurfaceRef& surface);
+
+/// Walks from triangle to triangle, unfolding at each edge. The local frame is that of the face
+/// (UnfoldedFaces); in it the tensors of the corners are joined linearly. [Marinov and Kobbelt 2004]
+class SurfaceDomain final : public FaceDomain {
+ public:
+  SurfaceDomain(const SurfaceRef& surface, SurfaceInput input, const DensityOptions& density);
+
+  Vec3d tensor(const SurfacePoint& at) const override;
+  Vec3d tensor_ahead(const SurfacePoint& from, const Vec2d& vector) const override;
+  Reach walk(const SurfacePoint& from, const Vec2d& vector) const override;
+  double turning_length(const SurfacePoint& at) const override;
+  std::vector<Vec2d> separatrices(const UmbilicPoint& umbilic, LineKind kind) const override;
+  std::vector<int> faces_within(const SurfacePoint& at, double radius) const override;
+  double area(OpenMesh::FaceHandle face) const override { return unfolded_.area(face.idx()); }
+  std::unique_ptr<LineIndex> make_index() const override;
+
+ private:
+  LinearField field(OpenMesh::FaceHandle face) const;
+  double distance(const SurfacePoint& at, const Vec2d& place) const override;
+
+  const SurfaceRef& surface_;
+  UnfoldedFaces unfolded_;
+  std::vector<std::array<Vec3d, 3>> corner_tensors_;
+  mutable SurfaceFlood flood_;
+  mutable std::mutex flood_in_use_;
+};
+
+}  // namespace anisomesh::detail

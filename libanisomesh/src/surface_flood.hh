@@ -1,0 +1,88 @@
+// The surroundings of a surface point, unfolded: the discrete exponential map.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "unfolded_faces.hh"
+
+namespace anisomesh::detail {
+
+/// Visits the faces around a point, the nearest first, each unfolded along the way it was reached by. Fences
+/// are not crossed. What is near in space but far along the surface is not reached. Keeps its scratch memory
+/// from one run to the next: one thread at a time.
+class SurfaceFlood {
+ public:
+  explicit SurfaceFlood(const UnfoldedFaces& faces) : faces_(faces), seen_(faces.size(), 0) {}
+
+  struct Visit {
+    int face = -1;
+    Vec2d place{0, 0};  ///< the point that all is seen from, in the frame of the face
+    Vec2d turn{1, 0};   ///< takes vectors of the frame of the start to that of the face
+    double distance2 = 0;
+    int parent = -1;   ///< into visits()
+    int entered = -1;  ///< the corner opposite the edge it was reached by
+  };
+
+  /// \param visit called with each Visit, gives the square of the radius that is still of interest
+  template <class OnVisit>
+  void run(const SurfacePoint& start, double radius2, OnVisit&& visit) {
+    if (++run_ == 0) {
+      std::fill(seen_.begin(), seen_.end(), 0);
+      run_ = 1;
+    }
+    visits_.clear();
+    open_.clear();
+    take({start.face.idx(), faces_.place(start), {1, 0}, 0, -1, -1}, radius2, visit);
+    while (!open_.empty()) {
+      std::pop_heap(open_.begin(), open_.end());
+      const Open next = open_.back();
+      open_.pop_back();
+      if (!(next.distance2 < radius2)) break;
+      const Visit& from = visits_[static_cast<size_t>(next.visit)];
+      const int face = faces_.across(from.face, next.edge);
+      if (seen_[static_cast<size_t>(face)] == run_) continue;
+      take({face, faces_.carried(from.face, next.edge, from.place),
+            turned_by(from.turn, faces_.turn(from.face, next.edge)), next.distance2, next.visit,
+            faces_.twin(from.face, next.edge)},
+           radius2, visit);
+    }
+  }
+
+  const std::vector<Visit>& visits() const { return visits_; }
+
+ private:
+  struct Open {
+    double distance2 = 0;
+    int visit = 0, edge = 0;
+    bool operator<(const Open& o) const {  // a heap has the largest on top
+      return distance2 != o.distance2 ? distance2 > o.distance2 : visit > o.visit;
+    }
+  };
+
+  template <class OnVisit>
+  void take(const Visit& visit, double& radius2, OnVisit&& on_visit) {
+    seen_[static_cast<size_t>(visit.face)] = run_;
+    visits_.push_back(visit);
+    radius2 = on_visit(visits_.back());
+    for (int i = 0; i < 3; ++i) {
+      if (i == visit.entered) continue;
+      const int next = faces_.across(visit.face, i);
+      if (next < 0 || seen_[static_cast<size_t>(next)] == run_) continue;
+      double unused = 0;
+      const double distance2 =
+          std::max(visit.distance2, faces_.edge_distance2(visit.face, i, visit.place, unused));
+      if (!(distance2 < radius2)) continue;
+      open_.push_back({distance2, static_cast<int>(visits_.size()) - 1, i});
+      std::push_heap(open_.begin(), open_.end());
+    }
+  }
+
+  const UnfoldedFaces& faces_;
+  std::vector<unsigned> seen_;
+  unsigned run_ = 0;
+  std::vector<Visit> visits_;
+  std::vector<Open> open_;
+};
+
+}  // namespace anisomesh::detail
