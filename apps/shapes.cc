@@ -8,10 +8,10 @@
 #include "support/command.hh"
 
 int main(int argc, char* argv[]) {
-  apps::Command command(
-      "anisomesh-shapes",
-      "Writes a disc-like surface made by code. The creases of octa-flower are feature edges; only "
-      ".om keeps them.");
+  apps::Command command("anisomesh-shapes",
+                        "Writes a surface made by code, a disc or a closed one. The creases of octa-flower "
+                        "and cube are feature "
+                        "edges; only .om keeps them.");
   std::string names;
   for (const auto& name : anisomesh::shape_names()) names += (names.empty() ? "" : ", ") + name;
   std::string name, output;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planar_sampling.hh"
+#include "shapes_closed.hh"
 
 namespace anisomesh {
 
@@ -142,6 +143,23 @@ detail::PlanarSampling sample_disc(const ParametricPatch& patch, const ShapeOpti
   return sampling;
 }
 
+OpenMesh::TriMesh mesh_of(const std::vector<Vec3d>& points, const std::vector<std::array<int, 3>>& triangles,
+                          const std::vector<std::pair<int, int>>& creases) {
+  OpenMesh::TriMesh mesh;
+  mesh.request_vertex_status();
+  mesh.request_edge_status();
+  mesh.request_face_status();
+  mesh.reserve(points.size(), 3 * points.size(), triangles.size());
+  for (const auto& p : points) mesh.add_vertex(p);
+  for (const auto& t : triangles)
+    mesh.add_face(OpenMesh::VertexHandle(t[0]), OpenMesh::VertexHandle(t[1]), OpenMesh::VertexHandle(t[2]));
+  for (const auto& [a, b] : creases) {
+    const auto halfedge = mesh.find_halfedge(OpenMesh::VertexHandle(a), OpenMesh::VertexHandle(b));
+    mesh.status(mesh.edge_handle(halfedge)).set_feature(true);
+  }
+  return mesh;
+}
+
 /// Shifts the vertices along their normals, which are all taken before the first shift.
 void add_noise(OpenMesh::TriMesh& mesh, double deviation_fraction, std::mt19937& generator) {
   const SurfaceRef surface = mesh;
@@ -166,19 +184,34 @@ void ShapeOptions::validate() const {
     throw InvalidOption("noise is " + std::to_string(noise) + ", must be finite and at least 0");
 }
 
-std::vector<std::string> shape_names() {
+std::vector<std::string> disc_shape_names() {
   std::vector<std::string> names;
   for (const auto& [name, patch] : catalogue()) names.push_back(name);
   return names;
 }
 
+std::vector<std::string> closed_shape_names() { return {"sphere", "ellipsoid", "torus", "cube"}; }
+
+std::vector<std::string> shape_names() {
+  auto names = disc_shape_names();
+  for (auto& name : closed_shape_names()) names.push_back(std::move(name));
+  return names;
+}
+
 OpenMesh::TriMesh make_shape(const std::string& name, const ShapeOptions& options) {
+  options.validate();
+  std::mt19937 generator(options.seed);
+  if (const auto closed = detail::sample_closed_shape(name, options, generator)) {
+    auto mesh = mesh_of(closed->points, closed->triangles, closed->creases);
+    if (options.noise > 0) add_noise(mesh, options.noise, generator);
+    return mesh;
+  }
   const auto& shapes = catalogue();
   const auto found =
       std::find_if(shapes.begin(), shapes.end(), [&](const auto& s) { return s.first == name; });
   if (found == shapes.end()) {
     std::string known;
-    for (const auto& shape : shapes) known += (known.empty() ? "" : ", ") + shape.first;
+    for (const auto& shape : shape_names()) known += (known.empty() ? "" : ", ") + shape;
     throw InvalidOption("no shape is called '" + name + "'; the shapes are " + known);
   }
   return mesh_patch(found->second, options);
@@ -193,18 +226,10 @@ OpenMesh::TriMesh mesh_patch(const ParametricPatch& patch, const ShapeOptions& o
   std::mt19937 generator(options.seed);
   auto sampling = patch.domain == Domain::disc ? sample_disc(patch, options, generator)
                                                : sample_rectangle(patch, options, generator);
-  OpenMesh::TriMesh mesh;
-  mesh.request_vertex_status();
-  mesh.request_edge_status();
-  mesh.request_face_status();
-  mesh.reserve(sampling.points.size(), 3 * sampling.points.size(), sampling.triangles.size());
-  for (const auto& p : sampling.points) mesh.add_vertex(patch.position(p[0], p[1]));
-  for (const auto& t : sampling.triangles)
-    mesh.add_face(OpenMesh::VertexHandle(t[0]), OpenMesh::VertexHandle(t[1]), OpenMesh::VertexHandle(t[2]));
-  for (const auto& [a, b] : sampling.creases) {
-    const auto halfedge = mesh.find_halfedge(OpenMesh::VertexHandle(a), OpenMesh::VertexHandle(b));
-    mesh.status(mesh.edge_handle(halfedge)).set_feature(true);
-  }
+  std::vector<Vec3d> points;
+  points.reserve(sampling.points.size());
+  for (const auto& p : sampling.points) points.push_back(patch.position(p[0], p[1]));
+  auto mesh = mesh_of(points, sampling.triangles, sampling.creases);
   if (options.noise > 0) add_noise(mesh, options.noise, generator);
   if (parameters) *parameters = std::move(sampling.points);
   return mesh;

@@ -21,12 +21,16 @@ struct ShapeOptions {
   void validate() const;  ///< \throw InvalidOption
 };
 
-/// Names that make_shape() knows: dome, squeezed-dome, saddle, octa-flower, half-torus, cylinder,
-/// ellipsoid-cap, monkey-saddle, wave, plane, hemisphere.
+/// Names that make_shape() knows: the discs, then the closed ones.
 std::vector<std::string> shape_names();
+/// dome, squeezed-dome, saddle, octa-flower, half-torus, cylinder, ellipsoid-cap, monkey-saddle, wave, plane,
+/// hemisphere.
+std::vector<std::string> disc_shape_names();
+/// sphere, ellipsoid, torus, cube.
+std::vector<std::string> closed_shape_names();
 
-/// A disc-like surface made by code, with vertex, edge and face status; the creases of octa-flower are tagged
-/// as features. docs/shapes.md has the formula of each. \throw InvalidOption
+/// A surface made by code, with vertex, edge and face status; the creases of octa-flower and cube are tagged as
+/// features. docs/shapes.md has the formula of each. \throw InvalidOption
 OpenMesh::TriMesh make_shape(const std::string& name, const ShapeOptions& options = {});
 
 /// A surface given by a formula over a rectangle or the unit disc; its normal is x_u cross x_v.
