@@ -1,5 +1,4 @@
 // anisomesh-flatten: the surface and its curvature tensors in the plane.
-#include "anisomesh/flatten.hh"
 
 #include <nlohmann/json.hpp>
 
@@ -11,28 +10,32 @@
 int main(int argc, char* argv[]) {
   apps::Command command(
       "anisomesh-flatten",
-      "Second stage: maps the surface to the plane, smooths the tensors there, finds umbilics.");
+      "Second stage: maps the surface to the plane, or leaves it as it is; smooths the tensors there, finds "
+      "umbilics.");
   std::string input, output;
+  anisomesh::Domain domain = anisomesh::Domain::automatic;
   anisomesh::SmoothingOptions smoothing;
   command.input(input, "input", "What anisomesh-estimate wrote, .om");
   command.output(output, "Where to write the surface; only .om keeps what was found");
+  apps::add_domain_option(command, domain);
   apps::add_smoothing_options(command, smoothing);
 
   return command.run(argc, argv, [&] {
     smoothing.validate();
     auto mesh = apps::read_surface(command, input);
     const anisomesh::SurfaceRef surface = mesh;
-    const auto flat = anisomesh::flatten(surface, command.progress("flattening"));
+    const auto chosen = anisomesh::choose_domain(surface, domain, command.progress("flattening"));
     const auto smooth = anisomesh::smooth_tensors(surface, smoothing, command.progress("smoothing"));
     const auto umbilics = anisomesh::find_umbilics(surface);
     command.stop_if_cancelled();
     anisomesh::write_mesh(mesh, output);
-    command.report()["flatten"] = apps::to_json(flat);
+    apps::add_json(command.report(), chosen);
     command.report()["smoothing"] = apps::to_json(smooth);
     command.report()["umbilics"] = apps::to_json(umbilics);
     command.report()["output"] = output;
-    command.say(output + ": " + std::to_string(umbilics.wedges) + " wedges, " +
-                std::to_string(umbilics.trisectors) + " trisectors, " +
-                apps::seconds(flat.seconds + smooth.seconds + umbilics.seconds));
+    command.say(output +
+                (chosen.used == anisomesh::Domain::plane ? ": in the plane, " : ": on the surface, ") +
+                std::to_string(umbilics.wedges) + " wedges, " + std::to_string(umbilics.trisectors) +
+                " trisectors, " + apps::seconds(chosen.seconds + smooth.seconds + umbilics.seconds));
   });
 }

@@ -9,10 +9,9 @@
 #include "support/reports.hh"
 
 int main(int argc, char* argv[]) {
-  apps::Command command(
-      "anisomesh-remesh",
-      "Remeshes a disc-like triangle mesh with quads that follow its lines of curvature. Writes the "
-      "same bytes as anisomesh-estimate, -flatten, -trace and -mesh in a row.");
+  apps::Command command("anisomesh-remesh",
+                        "Remeshes a triangle mesh with quads that follow its lines of curvature. Writes the "
+                        "same bytes as anisomesh-estimate, -flatten, -trace and -mesh in a row.");
   std::string input, output;
   apps::FeatureFlags features;
   apps::EpsilonFlags epsilon;
@@ -24,6 +23,7 @@ int main(int argc, char* argv[]) {
   apps::add_target_options(command, options);
   apps::add_feature_options(command, features);
   apps::add_curvature_options(command, options.curvature);
+  apps::add_domain_option(command, options.domain);
   apps::add_smoothing_options(command, options.smoothing);
   apps::add_mesh_options(command, options.mesh);
 
@@ -42,7 +42,7 @@ int main(int argc, char* argv[]) {
 
     command.report()["features"] = apps::to_json(report.features);
     command.report()["curvature"] = apps::to_json(report.curvature);
-    command.report()["flatten"] = apps::to_json(report.flatten);
+    apps::add_json(command.report(), report.domain);
     command.report()["smoothing"] = apps::to_json(report.smoothing);
     command.report()["umbilics"] = apps::to_json(report.umbilics);
     apps::add_json(command.report(), report);
@@ -50,8 +50,9 @@ int main(int argc, char* argv[]) {
     command.report()["output"] = output;
     command.say(output + ": " + apps::mesh_summary(result));
     command.say("  features " + apps::seconds(report.features.seconds) + ", curvature " +
-                apps::seconds(report.curvature.seconds) + ", flattening " +
-                apps::seconds(report.flatten.seconds) + ", smoothing " +
+                apps::seconds(report.curvature.seconds) +
+                (report.domain.used == anisomesh::Domain::plane ? ", flattening " : ", domain ") +
+                apps::seconds(report.domain.seconds) + ", smoothing " +
                 apps::seconds(report.smoothing.seconds) + ", umbilics " +
                 apps::seconds(report.umbilics.seconds) + ", lines " + apps::seconds(report.trace.seconds) +
                 ", isotropic " + apps::seconds(report.isotropic.seconds) + ", polygons " +

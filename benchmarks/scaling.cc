@@ -30,7 +30,7 @@ const std::vector<std::string> stages{"features", "curvature", "flatten", "smoot
                                       "lines",    "isotropic", "mesh",    "all"};
 
 std::vector<double> seconds_of(const RemeshReport& r) {
-  return {r.features.seconds,  r.curvature.seconds, r.flatten.seconds,
+  return {r.features.seconds,  r.curvature.seconds, r.domain.seconds,
           r.smoothing.seconds, r.umbilics.seconds,  r.trace.seconds,
           r.isotropic.seconds, r.mesh.seconds,      r.seconds};
 }

@@ -57,6 +57,12 @@ void add_curvature_options(Command& command, CurvatureOptions& options) {
       ->group("Curvature");
 }
 
+void add_domain_option(Command& command, Domain& domain) {
+  add_choice<Domain>(command.arguments(), "--domain", domain,
+                     {{"auto", Domain::automatic}, {"plane", Domain::plane}, {"surface", Domain::surface}},
+                     "Where lines are traced; auto takes the plane for a disc that flattens well", "Domain");
+}
+
 void add_smoothing_options(Command& command, SmoothingOptions& options) {
   CLI::App& app = command.arguments();
   app.add_option("--smoothing", options.iterations, "Passes of the filter over the curvature tensors")

@@ -40,6 +40,12 @@ Json to_json(const FlattenReport& r) {
           {"seconds", r.seconds}};
 }
 
+void add_json(Json& json, const DomainReport& r) {
+  const bool plane = r.used == Domain::plane;
+  json["domain"] = {{"used", plane ? "plane" : "surface"}, {"reason", r.reason}, {"seconds", r.seconds}};
+  if (plane) json["flatten"] = to_json(r.flatten);
+}
+
 Json to_json(const SmoothingReport& r) { return {{"mean_change", r.mean_change}, {"seconds", r.seconds}}; }
 
 Json to_json(const UmbilicReport& r) {

@@ -20,6 +20,8 @@ Json to_json(const anisomesh::TraceReport& report);
 Json to_json(const anisomesh::IsotropicReport& report);
 Json to_json(const anisomesh::MeshReport& report);
 Json to_json(const anisomesh::Comparison& comparison);
+/// The domain and, in the plane, the flattening, into `json`.
+void add_json(Json& json, const anisomesh::DomainReport& report);
 /// epsilon, attempts, and the reports of the last three stages, into `json`.
 void add_json(Json& json, const anisomesh::TraceAndMeshReport& report);
 

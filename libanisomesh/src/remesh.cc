@@ -21,7 +21,7 @@ OpenMesh::PolyMesh remesh(const SurfaceRef& surface, const RemeshOptions& option
   // About the share of each stage in the time of a scan of 25,000 triangles remeshed to 4,000 faces.
   done.features = tag_features(surface, options.features);
   done.curvature = estimate_curvature(surface, options.curvature, sub_progress(progress, 0, 0.15));
-  done.flatten = flatten(surface, sub_progress(progress, 0.15, 0.3));
+  done.domain = choose_domain(surface, options.domain, sub_progress(progress, 0.15, 0.3));
   done.smoothing = smooth_tensors(surface, options.smoothing, sub_progress(progress, 0.3, 0.4));
   report_progress(progress, 0.4);
   done.umbilics = find_umbilics(surface);

@@ -62,7 +62,7 @@ Neighbourhood SurfaceIndex::nearest(const SurfacePoint& at, double bound, int ow
       const Vec2d a = faces_.corner(visit.face, (i + 1) % 3), b = faces_.corner(visit.face, (i + 2) % 3);
       record(best.fence, visit, a + t * (b - a), b - a, distance2);
     }
-    return line2;
+    return pieces_.empty() ? fence2 : line2;
   });
   // Fences are searched only as far as the nearest line: which of those beyond it were met is chance.
   if (fence2 >= line2) best.fence = {};

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <string>
 
+#include "anisomesh/flatten.hh"
 #include "anisomesh/properties.hh"
 #include "anisomesh/remesh.hh"
 #include "numerics/tensor2d.hh"
+#include "numerics/tensor3d.hh"
+#include "surface_field.hh"
 
 namespace anisomesh {
 
@@ -24,12 +27,11 @@ class CrossingModel {
   CrossingModel(const SurfaceRef& surface, const DensityOptions& options)
       : options_(options), diagonal_(surface.diagonal()) {
     const auto& mesh = surface.connectivity();
-    const auto tensor = require_property(mesh, property::tensor2d);
     patches_.resize(mesh.n_vertices());
-    for (const auto v : mesh.vertices()) {
-      auto& patch = patches_[static_cast<size_t>(v.idx())];
-      detail::eigenvalues(mesh.property(tensor, v), patch.k_min, patch.k_max);
-    }
+    if (is_flattened(surface))
+      take_plane_tensors(mesh);
+    else
+      take_surface_tensors(mesh);
     double total = 0, bent = 0;
     for (const auto f : mesh.faces()) {
       const auto corners = surface.corners(f);
@@ -71,6 +73,25 @@ class CrossingModel {
   struct Patch {
     double area = 0, k_min = 0, k_max = 0;
   };
+
+  void take_plane_tensors(const OpenMesh::TriConnectivity& mesh) {
+    const auto tensor = require_property(mesh, property::tensor2d);
+    for (const auto v : mesh.vertices()) {
+      auto& patch = patches_[static_cast<size_t>(v.idx())];
+      detail::eigenvalues(mesh.property(tensor, v), patch.k_min, patch.k_max);
+    }
+  }
+
+  void take_surface_tensors(const OpenMesh::TriConnectivity& mesh) {
+    const auto tensor = require_property(mesh, property::surface_tensor);
+    const auto normal = require_property(mesh, property::normal);
+    for (const auto v : mesh.vertices()) {
+      auto& patch = patches_[static_cast<size_t>(v.idx())];
+      const detail::TangentFrame frame(mesh.property(normal, v));
+      detail::eigenvalues(detail::in_frame(mesh.property(tensor, v), frame), patch.k_min, patch.k_max);
+    }
+  }
+
   DensityOptions options_;
   double diagonal_;
   double mean_curvature_ = 0;
@@ -122,6 +143,9 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   target.validate();
   trace.validate();
   mesh.validate();
+  if (!is_flattened(surface) && has_property(surface.connectivity(), property::surface_tensor))
+    throw CannotProcess(
+        "polygons are built in the plane only, so far; take one disc, with a single border loop");
 
   TraceOptions options = trace;
   TraceAndMeshReport done;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "anisomesh/curvature.hh"
+#include "anisomesh/domain.hh"
 #include "anisomesh/features.hh"
-#include "anisomesh/flatten.hh"
 #include "anisomesh/lines.hh"
 #include "anisomesh/mesher.hh"
 #include "anisomesh/smoothing.hh"
@@ -25,6 +25,7 @@ struct TargetOptions {
 struct RemeshOptions : TargetOptions {
   FeatureOptions features;
   CurvatureOptions curvature;
+  Domain domain = Domain::automatic;
   SmoothingOptions smoothing;
   TraceOptions trace;  ///< trace.density.epsilon_fraction is ignored where a target is given
   MeshOptions mesh;
@@ -52,7 +53,7 @@ struct TraceAndMeshReport {
 struct RemeshReport : TraceAndMeshReport {
   FeatureReport features;
   CurvatureReport curvature;
-  FlattenReport flatten;
+  DomainReport domain;
   SmoothingReport smoothing;
   UmbilicReport umbilics;
   double seconds = 0;
@@ -66,12 +67,12 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
                                   const MeshOptions& mesh = {}, const TargetOptions& target = {},
                                   TraceAndMeshReport* report = nullptr, const Progress& progress = {});
 
-/// Remeshes a disc-like patch: tag_features, estimate_curvature, flatten, smooth_tensors, find_umbilics,
+/// Remeshes a surface: tag_features, estimate_curvature, choose_domain, smooth_tensors, find_umbilics,
 /// trace_lines, place_isotropic_samples, build_polygons. [ACDLD03]
 /// Reads: points, edge feature status. Writes: on the input mesh the properties of all stages; after a throw
 /// or a cancel those of the stages that were done by then.
-/// \pre one component with one border loop \throw InvalidOption, InvalidInput, CannotProcess, SolverFailure,
-/// Cancelled
+/// \pre in the plane, one component with one border loop \throw InvalidOption, InvalidInput, CannotProcess,
+/// SolverFailure, Cancelled
 OpenMesh::PolyMesh remesh(const SurfaceRef& surface, const RemeshOptions& options = {},
                           RemeshReport* report = nullptr, const Progress& progress = {});
 

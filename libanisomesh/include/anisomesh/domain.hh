@@ -1,0 +1,35 @@
+// Where the field is smoothed and lines are traced: in the plane of a parameterization, or on the surface.
+#pragma once
+
+#include <string>
+
+#include "anisomesh/flatten.hh"
+#include "anisomesh/progress.hh"
+#include "anisomesh/surface.hh"
+
+namespace anisomesh {
+
+enum class Domain {
+  automatic,  ///< the plane for a disc that flattens well, the surface for everything else
+  plane,      ///< the paper's: one disc only
+  surface     ///< any topology, no parameterization
+};
+
+struct DomainReport {
+  Domain used = Domain::plane;  ///< plane or surface
+  std::string reason;           ///< why `automatic` did not take the plane; empty where it did
+  FlattenReport flatten;        ///< in the plane
+  double seconds = 0;
+};
+
+/// Prepares a mesh for the domain that the stages after it work in: flatten() for the plane, unflatten() for
+/// the surface. `automatic` takes the plane for one component with one border loop and Euler characteristic 1
+/// whose flattening succeeds, with a mean conformal distortion of at most 2 and no vertex stretched to less
+/// than 1e-5 of its area (docs/surface-domain.md).
+///
+/// Reads: points, tensor, normal. Writes: as flatten() or unflatten().
+/// \throw as flatten(), with `automatic` only InvalidInput and Cancelled
+DomainReport choose_domain(const SurfaceRef& surface, Domain wanted = Domain::automatic,
+                           const Progress& progress = {});
+
+}  // namespace anisomesh
