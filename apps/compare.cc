@@ -2,7 +2,7 @@
 #include "anisomesh/compare.hh"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "anisomesh/curvature.hh"
@@ -16,46 +16,12 @@ namespace {
 
 using namespace anisomesh;
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[200];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
-
-void say_all(const apps::Command& command, const Comparison& c) {
-  const auto distances = [&](const char* what, const Distances& d) {
-    command.say(format("%-26s mean %.5f  rms %.5f  hausdorff %.4f", what, 100 * d.mean, 100 * d.rms,
-                       100 * d.hausdorff));
-  };
-  command.say("distances, % of the bounding box diagonal of the reference");
-  distances("  result to reference", c.to_reference);
-  distances("  reference to result", c.from_reference);
-  distances("  both", c.two_sided);
-  command.say(format("  99 %% of samples nearer     %.5f", 100 * c.p99_fraction));
-  command.say(format("mean normal deviation      %.2f degrees", c.mean_normal_deviation_degrees));
-  command.say(
-      format("elements                   %zu vertices, %zu edges, %zu faces", c.vertices, c.edges, c.faces));
-  std::string degrees, valences;
-  for (const auto& [degree, count] : c.faces_by_degree)
-    degrees += format("%s%d: %zu", degrees.empty() ? "" : ", ", degree, count);
-  for (const auto& [valence, count] : c.vertices_by_valence)
-    valences += format("%s%d: %zu", valences.empty() ? "" : ", ", valence, count);
-  command.say("faces by degree            " + degrees);
-  command.say(format("quads                      %.1f %%", 100 * c.quad_fraction));
-  command.say("vertices by valence        " + valences);
-  command.say(format("planarity                  mean %.4f, worst %.4f of a face's diameter",
-                     c.mean_planarity, c.max_planarity));
-  command.say(format("faces                      %zu concave, %zu folded, %zu without area", c.concave_faces,
-                     c.folded_faces, c.degenerate_faces));
-  command.say(format("not manifold               %zu edges, %zu vertices; %zu T-junctions",
-                     c.non_manifold_edges, c.non_manifold_vertices, c.t_junctions));
-  command.say(format(
-      "topology                   %d components, Euler characteristic %d, %d border loops: %s the reference",
-      c.components, c.euler_characteristic, c.border_loops, c.same_topology ? "as" : "NOT as"));
-  command.say(format("edges to directions        %.2f degrees (22.5 by chance)", c.mean_alignment_degrees));
-  command.say(
-      format("aspect ratio of quads      off by a factor of 2^%.2f from equation 7", c.aspect_ratio_error));
+void say_all(const apps::Command& command, const Comparison& comparison) {
+  constexpr size_t column = 27;
+  for (auto [what, value] : apps::comparison_lines(comparison)) {
+    if (!value.empty()) what.resize(std::max(what.size() + 1, column), ' ');
+    command.say(what + value);
+  }
 }
 
 }  // namespace

@@ -116,6 +116,7 @@ int Command::work_and_report(const std::function<void()>& work) {
     if (!json_path_.empty() && json_path_ != "-") require_writable(json_path_);
     work();
     if (!json_path_.empty()) {
+      (*report_)["options"] = options();
       (*report_)["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       const std::string text = report_->dump(2) + "\n";
       if (json_path_ == "-")
@@ -162,6 +163,20 @@ anisomesh::Progress Command::progress(const std::string& what) {
 
 void Command::stop_if_cancelled() const {
   if (stop_signal != 0) throw anisomesh::Cancelled();
+}
+
+bool Command::cancelled() const { return stop_signal != 0; }
+
+Json Command::options() const {
+  Json values = Json::object();
+  for (const auto* option : app_->get_options()) {
+    const std::string name = option->get_name();
+    if (name == "--help" || name == "--version") continue;
+    std::string given;
+    for (const auto& word : option->results()) given += (given.empty() ? "" : " ") + word;
+    values[name] = option->count() > 0 ? given : option->get_default_str();
+  }
+  return values;
 }
 
 void Command::say(const std::string& line) const {

@@ -50,6 +50,9 @@ class Command {
   anisomesh::Progress progress(const std::string& what);
   /// \throw Cancelled after Ctrl-C. Called before anything is written.
   void stop_if_cancelled() const;
+  bool cancelled() const;
+  /// The options by name, as given or by default.
+  Json options() const;
   /// A line for people: on stdout, unless --quiet or the JSON report goes there.
   void say(const std::string& line) const;
   /// A line on stderr, unless --quiet.

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "anisomesh/compare.hh"
 #include "anisomesh/io.hh"
@@ -24,6 +26,9 @@ Json to_json(const anisomesh::Comparison& comparison);
 void add_json(Json& json, const anisomesh::DomainReport& report);
 /// epsilon, attempts, and the reports of the last three stages, into `json`.
 void add_json(Json& json, const anisomesh::TraceAndMeshReport& report);
+
+/// What a comparison says to people: label and value, in order; an indented label belongs to the one above.
+std::vector<std::pair<std::string, std::string>> comparison_lines(const anisomesh::Comparison& comparison);
 
 /// Reads a surface for an app: reports what reading did, and warns where the file was not sound.
 OpenMesh::TriMesh read_surface(Command& command, const std::string& path,
