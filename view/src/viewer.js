@@ -7,6 +7,7 @@ import { firstTriangle } from './pick.js';
 
 const paneNames = ['surface', 'plane', 'result', 'overlay'];
 const pickRadius = 7; // pixels
+const pageLegend = 92;
 
 export class Viewer {
   constructor(header, stage, drawing, labels) {
@@ -40,10 +41,12 @@ export class Viewer {
     const on = paneNames.filter((name) => this.stage.isOn(name));
     const context = this.labels.getContext('2d');
     const width = Math.floor(this.width / Math.max(on.length, 1));
-    const legend = Math.max(0, ...on.map((name) => legendHeight(context, this.stage, name, width)));
+    const needed = Math.max(0, ...on.map((name) => legendHeight(context, this.stage, name, width)));
+    // On a page the legend's room is fixed, so that switching a layer moves nothing; a longer legend covers a little of the drawing.
+    const legend = this.header.picture ? needed : pageLegend;
     return on.map((name, i) => {
       const box = { x: i * width, y: 0, width: i === on.length - 1 ? this.width - i * width : width - 1, height: this.height };
-      return { name, box, legend, inner: { x: box.x, y: titleHeight, width: box.width, height: Math.max(this.height - titleHeight - legend, 1) } };
+      return { name, box, legend: Math.max(legend, needed), inner: { x: box.x, y: titleHeight, width: box.width, height: Math.max(this.height - titleHeight - legend, 1) } };
     });
   }
 
