@@ -1,24 +1,50 @@
 // anisomesh-remesh: all stages in one process.
 #include "anisomesh/remesh.hh"
 
+#include <CLI/CLI.hpp>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "anisomesh/io.hh"
 #include "support/command.hh"
 #include "support/options.hh"
 #include "support/reports.hh"
+#include "view/report.hh"
+
+namespace {
+
+/// The page of anisomesh-view for this run: input, result, the ruler's figures, what the stages report, the
+/// options.
+void write_page(apps::Command& command, const std::string& page, view::Meshes& meshes) {
+  auto tables = view::compare_all(meshes, {}, command.progress("comparing"));
+  tables.push_back({"Stages", command.report()});
+  tables.push_back({"Options", command.options()});
+  command.stop_if_cancelled();
+  anisomesh::write_text(view::make_report(meshes.surfaces.front().name + ", remeshed", meshes, tables), page);
+  command.report()["page"] = page;
+  command.say(page + ": open it in a browser");
+}
+
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+}  // namespace
 
 int main(int argc, char* argv[]) {
   apps::Command command("anisomesh-remesh",
                         "Remeshes a triangle mesh with quads that follow its lines of curvature. Writes the "
                         "same bytes as anisomesh-estimate, -flatten, -trace and -mesh in a row.");
-  std::string input, output;
+  std::string input, output, page;
   apps::FeatureFlags features;
   apps::EpsilonFlags epsilon;
   anisomesh::RemeshOptions options;
   command.input(input, "input", "The surface: .obj, .off, .ply, .stl or .om");
   command.output(output,
                  "Where to write the result: .obj, .off, .ply or .om (with the origin of each element)");
+  command.arguments()
+      .add_option("--report", page,
+                  "Write a page that shows input, lines and result, with figures, .html (as anisomesh-view)")
+      ->type_name("FILE")
+      ->group("Output");
   apps::add_density_options(command, epsilon, options.trace);
   apps::add_target_options(command, options);
   apps::add_feature_options(command, features);
@@ -30,13 +56,14 @@ int main(int argc, char* argv[]) {
   return command.run(argc, argv, [&] {
     options.trace.density.epsilon_fraction = epsilon.epsilon;
     options.validate();  // before a long file is read
+    if (!page.empty()) view::require_page(page);
     anisomesh::ReadReport read;
     auto mesh = apps::read_surface(command, input, &read);
     const anisomesh::SurfaceRef surface = mesh;
     options.features = apps::resolve(features, read);
     options.trace.density.epsilon_fraction = apps::resolve(epsilon, surface);
     anisomesh::RemeshReport report;
-    const auto result = anisomesh::remesh(surface, options, &report, command.progress("remeshing"));
+    auto result = anisomesh::remesh(surface, options, &report, command.progress("remeshing"));
     command.stop_if_cancelled();
     anisomesh::write_mesh(result, output);
 
@@ -59,5 +86,10 @@ int main(int argc, char* argv[]) {
                 apps::seconds(report.mesh.seconds) + "; all " + apps::seconds(report.seconds) +
                 (report.attempts > 1 ? " with " + std::to_string(report.attempts) + " attempts" : ""));
     if (!report.target_met) command.warn("the count nearest to the target is off by more than 10 %");
+    if (page.empty()) return;
+    view::Meshes meshes;
+    meshes.surfaces.push_back({file_name(input), std::move(mesh)});
+    meshes.results.push_back({file_name(output), std::move(result)});
+    write_page(command, page, meshes);
   });
 }

@@ -115,9 +115,9 @@ bool asks_for(const Arguments& a, const char* layer) {
 void check(const Arguments& a) {
   if (a.page.empty() && a.png.empty() && a.svg.empty())
     throw InvalidOption("nothing to write: give -o PAGE.html, --png PICTURE.png or --svg DRAWING.svg");
-  for (const auto& path : {a.page, a.png, a.svg})
-    if (!path.empty()) require_writable(path);
-  if ((!a.page.empty() || !a.png.empty()) && !view::have_page()) view::make_page("", {}, {}, {});
+  for (const auto& path : {a.page, a.png})
+    if (!path.empty()) view::require_page(path);
+  if (!a.svg.empty()) require_writable(a.svg);
   view::size_from(a.size);
   if (!a.png.empty()) view::find_chromium();
 }

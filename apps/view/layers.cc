@@ -34,7 +34,7 @@ const std::vector<Layer>& layers() {
       {"crosses", "principal directions, scaled by curvature", Needs::surface, property::gamma_min.name,
        estimate},
       {"smoothed-crosses", "the same of the smoothed tensors", Needs::surface, property::tensor2d.name,
-       flatten},
+       flatten, property::surface_tensor.name},
       {"umbilics", "wedges and trisectors", Needs::surface, property::umbilic.name, flatten},
       {"min-lines", "min lines of curvature", Needs::surface, property::line_table.name, trace},
       {"max-lines", "max lines of curvature", Needs::surface, property::line_table.name, trace},
@@ -76,7 +76,12 @@ void require_layer(const std::string& name, const Shown& shown) {
   if (!layer->property) return;
   const OpenMesh::BaseKernel& mesh =
       of_result ? static_cast<const OpenMesh::BaseKernel&>(*shown.result) : *shown.surface;
-  if (carries(mesh, layer->property)) return;
+  if (carries(mesh, layer->property) || (layer->instead && carries(mesh, layer->instead))) return;
+  if (layer->app == std::string_view("anisomesh-flatten") && carries(mesh, property::surface_tensor.name))
+    throw anisomesh::InvalidInput(
+        shown.surface_name + ": layer '" + name + "' needs property '" + layer->property +
+        "', which a surface that was worked on without a plane does not have; a disc gets "
+        "it with --domain plane");
   throw anisomesh::InvalidInput(
       (of_result ? shown.result_name : shown.surface_name) + ": layer '" + name + "' needs property '" +
       layer->property + "', which is not there; run " + layer->app +

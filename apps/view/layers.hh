@@ -16,8 +16,9 @@ struct Layer {
   const char* name;
   const char* help;
   Needs needs;
-  const char* property;  ///< the mesh must carry it; nullptr: none
-  const char* app;       ///< that writes it
+  const char* property;           ///< the mesh must carry it; nullptr: none
+  const char* app;                ///< that writes it
+  const char* instead = nullptr;  ///< or this one, which a surface that was not flattened carries
 };
 
 /// All layers, in the order of the page.

@@ -83,6 +83,40 @@ class Points {
   std::vector<uint16_t> shares_;
 };
 
+/// The eigenvalues and eigenvectors in the tangent plane of the tensors smoothed on the surface itself.
+void add_smoothed(Model& model, const OpenMesh::TriConnectivity& mesh) {
+  OpenMesh::VPropHandleT<Vec6d> tensor;
+  OpenMesh::VPropHandleT<Vec3d> normal;
+  if (!mesh.get_property_handle(tensor, property::surface_tensor.name) ||
+      !mesh.get_property_handle(normal, property::normal.name))
+    return;
+  std::vector<float> values;
+  std::vector<int16_t> directions[2];
+  for (const auto v : mesh.vertices()) {
+    const Vec6d& t = mesh.property(tensor, v);
+    const Vec3d n = mesh.property(normal, v);
+    Vec3d a = cross(n, std::abs(n[0]) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0));
+    if (a.sqrnorm() > 0) a.normalize();
+    const Vec3d b = cross(n, a);
+    const auto times = [&](const Vec3d& x) {
+      return Vec3d(t[0] * x[0] + t[1] * x[1] + t[2] * x[2], t[1] * x[0] + t[3] * x[1] + t[4] * x[2],
+                   t[2] * x[0] + t[4] * x[1] + t[5] * x[2]);
+    };
+    const double aa = a | times(a), ab = a | times(b), bb = b | times(b);
+    const double mean = (aa + bb) / 2, half = (aa - bb) / 2, radius = std::hypot(half, ab);
+    const double angle = std::atan2(ab, half) / 2;
+    const Vec3d along[2] = {b * std::cos(angle) - a * std::sin(angle),
+                            a * std::cos(angle) + b * std::sin(angle)};
+    values.push_back(static_cast<float>(mean - radius));
+    values.push_back(static_cast<float>(mean + radius));
+    for (size_t k = 0; k < 2; ++k)
+      for (size_t i = 0; i < 3; ++i) directions[k].push_back(small(along[k][i]));
+  }
+  model.sections["smoothed_k"] = section(values, 2);
+  model.sections["smoothed_min"] = section(directions[0], 3);
+  model.sections["smoothed_max"] = section(directions[1], 3);
+}
+
 void add_umbilics(Model& model, const OpenMesh::TriConnectivity& mesh) {
   OpenMesh::FPropHandleT<int> kind;
   OpenMesh::FPropHandleT<Vec3d> place;
@@ -167,6 +201,7 @@ Model surface_model(const std::string& name, const SurfaceRef& surface, const Fr
   add_vertex_floats(model, "tensor2d", mesh, property::tensor2d, 3, component);
   add_vertex_floats(model, "uv", mesh, property::uv, 2,
                     [&](const Vec2d& uv, size_t i) { return uv[i] / frame.scale; });
+  add_smoothed(model, mesh);
   add_umbilics(model, mesh);
   add_lines(model, surface);
   model.sections["border"] = section(edges_where(mesh, [&](EdgeHandle e) { return mesh.is_boundary(e); }), 3);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anisomesh/errors.hh"
+#include "anisomesh/io.hh"
 #include "view/template.hh"
 
 namespace view {
@@ -42,6 +43,11 @@ std::string escaped(const std::string& text) {
 }  // namespace
 
 bool have_page() { return !page_template().empty(); }
+
+void require_page(const std::string& path) {
+  if (!have_page()) make_page("", {}, {}, {});
+  anisomesh::require_writable(path);
+}
 
 std::string make_page(const std::string& title, const Frame& frame, const std::vector<Model>& models,
                       const std::vector<Table>& tables, const Scene& scene) {

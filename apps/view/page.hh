@@ -29,6 +29,10 @@ struct Table {
 /// Whether this build has the page (ANISOMESH_VIEW).
 bool have_page();
 
+/// Looks before the long work whether a page can be made and written there. \throw anisomesh::CannotProcess
+/// without have_page(), anisomesh::InvalidInput
+void require_page(const std::string& path);
+
 /// The page as HTML: nothing in it is fetched. \throw anisomesh::CannotProcess without have_page()
 std::string make_page(const std::string& title, const Frame& frame, const std::vector<Model>& models,
                       const std::vector<Table>& tables, const Scene& scene = {});

@@ -248,3 +248,43 @@ test('a surface without anything on it is shown without anything on it', async (
   assert.deepEqual(complaints, []);
   await page.close();
 });
+
+test('anisomesh-remesh --report shows input, lines, result, figures, stages and options', async () => {
+  must('anisomesh-shapes', '-q', 'octa-flower', '--vertices', '1500', '-o', 'flower.om');
+  const said = must('anisomesh-remesh', 'flower.om', '-o', 'flower.obj', '--report', 'flower.html', '--rho', '0.25');
+  assert.ok(said.includes('flower.html'));
+  const { page, complaints, requests } = await open('flower.html');
+  assert.deepEqual(requests.length, 1);
+  assert.deepEqual(complaints, []);
+  const names = await layerNames(page);
+  // the .obj carries nothing, the report all of it
+  for (const name of ['min-lines', 'umbilics', 'plane', 'degree', 'error', 'edge-kinds', 'plane-polygons']) assert.ok(names.includes(name), name);
+  assert.ok(await page.locator('[data-layer="max-lines"]').isChecked());
+  await page.locator('details[data-table="Options"] summary').click();
+  assert.match(await page.locator('details[data-table="Options"]').innerText(), /--rho\s+0\.25/);
+  await page.locator('details[data-table="Stages"] summary').click();
+  assert.match(await page.locator('details[data-table="Stages"]').innerText(), /wedges\s+\d/);
+  const figures = await page.locator('details[data-table^="Figures"]').innerText();
+  const quads = /quads\s+([\d.]+ %)/.exec(figures)[1];
+  assert.ok(must('anisomesh-compare', 'flower.om', 'flower.obj').includes(quads));
+  await page.close();
+});
+
+test('a closed surface, which has no plane, is shown without one', async () => {
+  must('anisomesh-shapes', '-q', 'torus', '--vertices', '1500', '-o', 'torus.off');
+  must('anisomesh-estimate', '-q', 'torus.off', '-o', 'torus-1.om');
+  must('anisomesh-flatten', '-q', 'torus-1.om', '-o', 'torus-2.om');
+  must('anisomesh-trace', '-q', 'torus-2.om', '-o', 'torus-3.om', '--epsilon', '0.004');
+  must('anisomesh-view', '-q', 'torus-3.om', '-o', 'torus.html');
+  const { page, complaints } = await open('torus.html');
+  const names = await layerNames(page);
+  for (const name of ['plane', 'stretch', 'plane-polygons']) assert.ok(!names.includes(name), name);
+  await only(page, 'surface');
+  const bare = await screenshot(page);
+  for (const name of ['min-lines', 'max-lines', 'smoothed-crosses']) {
+    await only(page, 'surface', name);
+    assert.ok(differing(bare, await screenshot(page), { y: 26, height: bare.height - 26 - 93 }) > 500, name);
+  }
+  assert.deepEqual(complaints, []);
+  await page.close();
+});

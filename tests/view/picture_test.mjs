@@ -100,6 +100,15 @@ test('a layer without its property is refused with the stage to run', () => {
   assert.ok(!existsSync(file('out.html')) && !existsSync(file('out.png')) && !existsSync(file('out.svg')));
 });
 
+test('a surface that was not flattened has no plane, and that is said', () => {
+  must('anisomesh-shapes', '-q', 'torus', '--vertices', '600', '-o', 'torus.off');
+  must('anisomesh-estimate', '-q', 'torus.off', '-o', 'torus-1.om');
+  must('anisomesh-flatten', '-q', 'torus-1.om', '-o', 'torus-2.om');
+  refused(3, ['torus-2.om', 'without a plane'], ['torus-2.om', '-o', 'out.html', '--layer', 'plane']);
+  refused(3, ['torus-2.om', 'without a plane'], ['torus-2.om', '--svg', 'out.svg']);
+  must('anisomesh-view', '-q', 'torus-2.om', '-o', 'torus.html', '--layer', 'smoothed-crosses');
+});
+
 test('what is no mesh, or nowhere to write, is refused', () => {
   writeFileSync(file('text.om'), 'this is no mesh');
   writeFileSync(file('text.off'), 'this is no mesh');

@@ -61,15 +61,17 @@ function eigen(uu, uv, vv) {
   return { k: [mean - radius, mean + radius], d: [[-max[1], max[0], 0], max] };
 }
 
-/** \param source estimated: gamma_min and gamma_max; smoothed: the eigenvectors of tensor2d
+/** \param source estimated: gamma_min and gamma_max; smoothed: what smooth_tensors() made of them, in the plane or on the surface
  *  \returns segments, and for each whether it is the max direction */
 export function crossSegments(surface, domain, source) {
   const a = surface.arrays;
   const { vertices, cell } = spread(surface);
   const triangle = anyTriangle(surface);
-  const home = source === 'estimated' ? 'space' : 'plane'; // where the directions are given
+  const inPlane = source === 'smoothed' && a.uv && a.tensor2d;
+  const home = inPlane ? 'plane' : 'space'; // where the directions are given
   const crosses = vertices.map((v) => {
-    if (source === 'smoothed') return { v, ...eigen(a.tensor2d[3 * v], a.tensor2d[3 * v + 1], a.tensor2d[3 * v + 2]) };
+    if (inPlane) return { v, ...eigen(a.tensor2d[3 * v], a.tensor2d[3 * v + 1], a.tensor2d[3 * v + 2]) };
+    if (source === 'smoothed') return { v, k: [...a.smoothed_k.subarray(2 * v, 2 * v + 2)], d: [a.smoothed_min, a.smoothed_max].map((g) => [...g.subarray(3 * v, 3 * v + 3)]) };
     return { v, k: [a.k_min[v], a.k_max[v]], d: [a.gamma_min, a.gamma_max].map((g) => [...g.subarray(3 * v, 3 * v + 3)]) };
   });
   const [, full] = robustRange(Float32Array.from(crosses.flatMap((x) => x.k.map(Math.abs))), { fromZero: true });

@@ -120,7 +120,7 @@ export const layers = [
     draw: drawCrosses('estimated'), swatch: [['min direction', colours.min], ['max direction', colours.max]],
   },
   {
-    name: 'smoothed-crosses', group: 'On the input', label: 'smoothed directions', of: 'surface', available: has('uv', 'tensor2d'),
+    name: 'smoothed-crosses', group: 'On the input', label: 'smoothed directions', of: 'surface', available: (s) => has('uv', 'tensor2d')(s) || has('smoothed_k')(s),
     draw: drawCrosses('smoothed'), swatch: [['smoothed min direction', colours.min], ['smoothed max direction', colours.max]],
   },
   { name: 'min-lines', group: 'On the input', label: 'min lines', of: 'surface', available: has('line_table'), draw: drawLines(0), swatch: [['min lines', colours.min]] },
