@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "numerics/point_index.hh"
-
 namespace anisomesh::detail {
 
 namespace {
@@ -23,8 +21,8 @@ Vec3d off_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
 
 class Decimator {
  public:
-  Decimator(NetworkGraph& network, const DecimationOptions& options)
-      : network_(network), graph_(network.graph), options_(options), index_(locations(), alive()) {}
+  Decimator(NetworkGraph& network, Embedding& embedding, const DecimationOptions& options)
+      : network_(network), graph_(network.graph), embedding_(embedding), options_(options) {}
 
   DecimationReport run() {
     trim();
@@ -38,19 +36,6 @@ class Decimator {
   }
 
  private:
-  std::vector<Vec2d> locations() const {
-    std::vector<Vec2d> result;
-    result.reserve(graph_.n_nodes());
-    for (size_t n = 0; n < graph_.n_nodes(); ++n) result.push_back(graph_.uv(static_cast<int>(n)));
-    return result;
-  }
-  std::vector<char> alive() const {
-    std::vector<char> result(graph_.n_nodes());
-    for (size_t n = 0; n < result.size(); ++n)
-      result[n] = graph_.degree(static_cast<int>(n)) > 0 || network_.fixed[n];
-    return result;
-  }
-
   // Edges at a node.
   template <class Visit>
   void visit_edges(int node, const Visit& visit) const {
@@ -61,6 +46,7 @@ class Decimator {
   void trim();
   void straighten();
   std::vector<int> chain_from(int node, int edge, std::vector<char>& seen) const;
+  double tolerance_between(const std::vector<int>& chain, int begin, int end) const;
   void order_chain(const std::vector<int>& chain, std::vector<std::pair<int, int>>& removable);
   bool remove_from_chain(int node);
   size_t contract_short_edges();
@@ -78,8 +64,8 @@ class Decimator {
 
   NetworkGraph& network_;
   PlanarGraph& graph_;
+  Embedding& embedding_;
   const DecimationOptions& options_;
-  PointIndex index_;
   DecimationReport report_;
 };
 
@@ -99,11 +85,11 @@ void Decimator::trim() {
       if (!is_line(graph_.edge(edge).kind)) break;
       const int next = graph_.other(edge, node);
       graph_.remove_edge(edge);
-      index_.remove(node);
+      embedding_.drop(node);
       ++report_.trimmed;
       node = next;
     }
-    if (graph_.degree(node) == 0 && !network_.fixed[at(node)]) index_.remove(node);
+    if (graph_.degree(node) == 0 && !network_.fixed[at(node)]) embedding_.drop(node);
   }
 }
 
@@ -118,6 +104,13 @@ std::vector<int> Decimator::chain_from(int node, int edge, std::vector<char>& se
     const int first = graph_.first_edge(next);
     edge = first == edge ? graph_.next_edge(first, next) : first;
   }
+}
+
+double Decimator::tolerance_between(const std::vector<int>& chain, int begin, int end) const {
+  if (network_.share.empty()) return options_.chain_tolerance;
+  double share = 1;
+  for (int i = begin; i <= end; ++i) share = std::min(share, network_.share[at(chain[at(i)])]);
+  return share == 1 ? options_.chain_tolerance : share * options_.finite_tolerance;
 }
 
 // Splits the chain again and again at the sample farthest from the chord (Ramer 1972, Douglas and Peucker
@@ -156,7 +149,7 @@ void Decimator::order_chain(const std::vector<int>& chain, std::vector<std::pair
         split = i;
       }
     }
-    if (!(farthest > options_.chain_tolerance)) removable.emplace_back(r.depth, chain[at(split)]);
+    if (!(farthest > tolerance_between(chain, r.begin, r.end))) removable.emplace_back(r.depth, chain[at(split)]);
     ranges.push_back({r.begin, split, r.depth + 1});
     ranges.push_back({split, r.end, r.depth + 1});
   }
@@ -166,13 +159,12 @@ void Decimator::order_chain(const std::vector<int>& chain, std::vector<std::pair
 bool Decimator::remove_from_chain(int node) {
   const int first = graph_.first_edge(node), second = graph_.next_edge(first, node);
   const int a = graph_.other(first, node), b = graph_.other(second, node);
-  if (a == b || graph_.find_edge(a, b) >= 0 || !index_.triangle_is_empty(a, node, b)) return false;
+  if (a == b || graph_.find_edge(a, b) >= 0 || !embedding_.straighten(a, node, b)) return false;
   const auto& edge = graph_.edge(first);
   const int kind = edge.kind, tag = edge.tag;
   graph_.remove_edge(first);
   graph_.remove_edge(second);
   graph_.add_edge(a, b, kind, tag);
-  index_.remove(node);
   ++report_.straightened;
   return true;
 }
@@ -216,11 +208,16 @@ int Decimator::rank(int node) const {
 // Length of the edge that continues `edge` beyond `node`: the one of its kind that turns least; 0 if there is
 // none.
 double Decimator::continuation(int edge, int node) const {
-  const Vec2d along = graph_.uv(node) - graph_.uv(graph_.other(edge, node));
+  const auto towards = [&](int from, int to) {
+    const Vec3d step = network_.positions[at(to)] - network_.positions[at(from)];
+    const Vec2d flat = graph_.uv(to) - graph_.uv(from);
+    return network_.planar ? Vec3d(flat[0], flat[1], 0) : step;
+  };
+  const Vec3d along = towards(graph_.other(edge, node), node);
   double best = 0, result = 0;
   visit_edges(node, [&](int e) {
     if (e == edge || graph_.edge(e).kind != graph_.edge(edge).kind) return;
-    const Vec2d onward = graph_.uv(graph_.other(e, node)) - graph_.uv(node);
+    const Vec3d onward = towards(node, graph_.other(e, node));
     const double cosine = (along | onward) / (along.norm() * onward.norm());
     if (cosine > best) {
       best = cosine;
@@ -239,11 +236,13 @@ bool Decimator::contract(int keep, int gone, int edge) {
   visit_edges(gone, [&](int e) {
     if (e != edge) moved.push_back({e, graph_.other(e, gone)});
   });
+  std::vector<int> others;
   for (const Moved& m : moved) {
-    if (!index_.triangle_is_empty(keep, gone, m.other)) return false;
     const int twin = graph_.find_edge(keep, m.other);
     if (twin >= 0 && !is_line(graph_.edge(twin).kind) && !is_line(graph_.edge(m.edge).kind)) return false;
+    others.push_back(m.other);
   }
+  if (!embedding_.contract(keep, gone, others)) return false;
   // Two edges that end in the same node become one: the triangle between them had nothing inside.
   for (const Moved& m : moved) {
     const auto& old = graph_.edge(m.edge);
@@ -256,7 +255,6 @@ bool Decimator::contract(int keep, int gone, int edge) {
       graph_.set_kind(twin, kind, tag);
   }
   graph_.remove_edge(edge);
-  index_.remove(gone);
   ++report_.merged;
   return true;
 }
@@ -289,8 +287,8 @@ size_t Decimator::contract_short_edges() {
 
 }  // namespace
 
-DecimationReport decimate(NetworkGraph& network, const DecimationOptions& options) {
-  return Decimator(network, options).run();
+DecimationReport decimate(NetworkGraph& network, Embedding& embedding, const DecimationOptions& options) {
+  return Decimator(network, embedding, options).run();
 }
 
 }  // namespace anisomesh::detail

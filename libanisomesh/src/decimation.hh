@@ -1,6 +1,7 @@
 // From the arrangement of all samples to the graph of those that become vertices. [ACDLD03, section 4.2]
 #pragma once
 
+#include "embedding.hh"
 #include "network_graph.hh"
 
 namespace anisomesh::detail {
@@ -8,6 +9,7 @@ namespace anisomesh::detail {
 struct DecimationOptions {
   double chain_tolerance =
       0;  ///< a straightened chain stays this near to its samples, model units; infinite: the paper
+  double finite_tolerance = 0;  ///< the same where only a share of it holds, see NetworkGraph::share
   double merge_fraction =
       0;  ///< an edge shorter than this fraction of those it continues is contracted; 0: none
 };
@@ -17,7 +19,7 @@ struct DecimationReport {
 };
 
 /// Trims dangling chains, straightens chains, contracts edges that are far shorter than their neighbours.
-/// The graph stays planar in (u, v) and the border stays one simple loop.
-DecimationReport decimate(NetworkGraph& network, const DecimationOptions& options);
+/// The graph stays embedded, and border loops stay simple.
+DecimationReport decimate(NetworkGraph& network, Embedding& embedding, const DecimationOptions& options);
 
 }  // namespace anisomesh::detail

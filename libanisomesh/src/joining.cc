@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "conforming.hh"
@@ -26,6 +27,7 @@ struct Candidate {
   std::vector<int> path;
   double gain = 0;
   std::vector<Polygon> replacement;
+  std::vector<std::array<int, 2>> chords;  // nodes of its inner edges, the lower first
 };
 
 class Pairing {
@@ -92,7 +94,7 @@ void Pairing::extend(std::vector<int>& path, std::vector<Candidate>& candidates)
       continue;
     path.push_back(next);
     if (polygons_[at(next)].size() == 3) {
-      if (path.front() < next) candidates.push_back({path, 0, {}});
+      if (path.front() < next) candidates.push_back({path, 0, {}, {}});
     } else if (static_cast<int>(path.size()) <= max_between_ + 1) {
       extend(path, candidates);
     }
@@ -128,6 +130,13 @@ void Pairing::evaluate(Candidate& candidate) const {
   const double cost = judge_.cost(corners, after);
   candidate.gain = judge_.cost(corners, before) - cost - worth_of_lines(corners, before, after);
   if (after.empty() || after.size() >= before.size() || cost > folded_cost) candidate.gain = 0;
+  for (const Polygon& p : after)
+    for (size_t i = 0; i < p.size(); ++i) {
+      const int a = p[i], b = p[(i + 1) % p.size()];
+      if (a < b && !corners.is_side(a, b) && !corners.is_side(b, a))
+        candidate.chords.push_back({std::min(corners.node[at(a)], corners.node[at(b)]),
+                                    std::max(corners.node[at(a)], corners.node[at(b)])});
+    }
   for (Polygon& p : after)
     for (int& i : p) i = corners.node[at(i)];
   candidate.replacement = std::move(after);
@@ -164,11 +173,15 @@ size_t Pairing::apply(std::vector<Candidate>& candidates) {
                    [&](size_t x, size_t y) { return candidates[x].gain > candidates[y].gain; });
   std::vector<char> changed(polygons_.size(), 0);
   size_t applied = 0;
+  std::set<std::array<int, 2>> new_chords;  // of this round: no second polygon may have one as its side
   for (const size_t c : order) {
     const Candidate& candidate = candidates[c];
     const auto taken = [&](int p) { return changed[at(p)] != 0; };
-    if (std::any_of(candidate.path.begin(), candidate.path.end(), taken) || !keeps_valence(candidate))
+    const auto is_new = [&](const std::array<int, 2>& chord) { return new_chords.count(chord) > 0; };
+    if (std::any_of(candidate.path.begin(), candidate.path.end(), taken) ||
+        std::any_of(candidate.chords.begin(), candidate.chords.end(), is_new) || !keeps_valence(candidate))
       continue;
+    new_chords.insert(candidate.chords.begin(), candidate.chords.end());
     for (size_t i = 0; i < candidate.path.size(); ++i) {
       const auto p = at(candidate.path[i]);
       changed[p] = 1;

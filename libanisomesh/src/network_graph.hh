@@ -11,14 +11,16 @@
 
 namespace anisomesh::detail {
 
-/// A planar graph in (u, v) whose nodes are points of the surface. Edge kinds are EdgeKind.
+/// A graph whose nodes are points of the surface. Edge kinds are EdgeKind.
 struct NetworkGraph {
+  bool planar = true;  ///< drawn in the plane; otherwise on the surface, and uv means nothing
   PlanarGraph graph;
   std::vector<SurfacePoint> points;  ///< of each node
   std::vector<Vec3d> positions;      ///< of each node, model units
   std::vector<Vec3d> normals;        ///< of the surface at each node
   std::vector<Origin> origins;       ///< of each node
   std::vector<char> fixed;           ///< of each node: not to be removed (corners, isotropic samples)
+  std::vector<double> share;         ///< of the tolerances that holds at each node; empty: all of them
   size_t crossings = 0;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "region_layout.hh"
+
 namespace anisomesh::detail {
 
 namespace {
@@ -29,6 +31,9 @@ PolygonAdjacency::PolygonAdjacency(const std::vector<Polygon>& polygons, size_t 
       neighbors_.push_back(-1);
     }
   }
+  sides_.reserve(sides.size());
+  for (const Side& s : sides) sides_.push_back({s.low, s.high});
+  std::sort(sides_.begin(), sides_.end());
   std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
     if (x.low != y.low) return x.low < y.low;
     return x.high != y.high ? x.high < y.high : x.place < y.place;
@@ -39,6 +44,26 @@ PolygonAdjacency::PolygonAdjacency(const std::vector<Polygon>& polygons, size_t 
     neighbors_[x.place] = y.polygon;
     neighbors_[y.place] = x.polygon;
   }
+}
+
+bool PolygonAdjacency::are_joined(int a, int b) const {
+  return std::binary_search(sides_.begin(), sides_.end(), std::array<int, 2>{std::min(a, b), std::max(a, b)});
+}
+
+void PolygonAdjacency::forbid_other_sides(RegionCorners& corners, const std::vector<Polygon>& polygons,
+                                          const std::vector<int>& path) const {
+  const auto is_own = [&](int a, int b) {
+    for (const int p : path)
+      for (size_t i = 0; i < polygons[at(p)].size(); ++i) {
+        const int from = polygons[at(p)][i], to = polygons[at(p)][(i + 1) % polygons[at(p)].size()];
+        if ((from == a && to == b) || (from == b && to == a)) return true;
+      }
+    return false;
+  };
+  for (size_t i = 0; i < corners.size(); ++i)
+    for (size_t k = i + 1; k < corners.size(); ++k)
+      if (are_joined(corners.node[i], corners.node[k]) && !is_own(corners.node[i], corners.node[k]))
+        corners.forbid(static_cast<int>(i), static_cast<int>(k));
 }
 
 RegionCorners PolygonAdjacency::around(const std::vector<Polygon>& polygons, const std::vector<int>& path,
@@ -64,6 +89,10 @@ RegionCorners PolygonAdjacency::around(const std::vector<Polygon>& polygons, con
   for (size_t i = 1; i + 1 < ring.size(); ++i)
     corners.normal +=
         cross(corners.position[i] - corners.position[0], corners.position[i + 1] - corners.position[0]);
+  if (!network.planar) {
+    lay_out(corners, {});
+    forbid_other_sides(corners, polygons, path);
+  }
   return corners;
 }
 

@@ -19,6 +19,8 @@ class PolygonAdjacency {
   int neighbor(int polygon, size_t side) const {
     return neighbors_[first_[static_cast<size_t>(polygon)] + side];
   }
+  /// Whether the nodes are the ends of a side.
+  bool are_joined(int a, int b) const;
   /// How many polygons meet at a node.
   int faces_at(int node) const { return faces_at_[static_cast<size_t>(node)]; }
   /// Counts polygons in (by = 1) or out (by = -1).
@@ -31,7 +33,11 @@ class PolygonAdjacency {
                        const NetworkGraph& network) const;
 
  private:
+  void forbid_other_sides(RegionCorners& corners, const std::vector<std::vector<int>>& polygons,
+                          const std::vector<int>& path) const;
+
   std::vector<size_t> first_;
+  std::vector<std::array<int, 2>> sides_;  // lower node first, ascending
   std::vector<int> neighbors_;
   std::vector<int> faces_at_;
 };

@@ -49,31 +49,36 @@ void RegionCorners::add(const NetworkGraph& network, int n) {
   corner_normal.push_back(on_feature ? Vec3d(0, 0, 0) : network.normals[at(n)]);
 }
 
-PolygonJudge::PolygonJudge(const SurfaceRef& surface, const UvLocator& locator, const SurfaceNormals& normals,
+PolygonJudge::PolygonJudge(const SurfaceRef& surface, const SurfaceLocator& locator, const SurfaceNormals& normals,
                            const JudgeOptions& options)
     : surface_(surface), locator_(locator), normals_(normals), options_(options) {}
 
-Vec3d PolygonJudge::surface_normal(const Vec2d& uv, OpenMesh::FaceHandle start) const {
-  return normals_.at(locator_.locate(uv, start));
+Vec3d PolygonJudge::surface_normal(const Vec2d& uv, const Vec3d& place, OpenMesh::FaceHandle start) const {
+  return normals_.at(locator_.locate(uv, place, start));
 }
 
 double PolygonJudge::chord_error(const RegionCorners& region, int a, int b) const {
   bool inside = false;
+  const Vec3d middle = 0.5 * (region.position[at(a)] + region.position[at(b)]);
   const SurfacePoint p =
-      locator_.locate(0.5 * (region.uv[at(a)] + region.uv[at(b)]), region.face[at(a)], &inside);
+      locator_.locate(0.5 * (region.uv[at(a)] + region.uv[at(b)]), middle, region.face[at(a)], &inside);
   if (!inside) return 0;
   const auto c = surface_.corners(p.face);
   const Vec3d normal = cross(surface_.point(c.vertex[1]) - surface_.point(c.vertex[0]),
                              surface_.point(c.vertex[2]) - surface_.point(c.vertex[0]));
   const double length = normal.norm();
   if (!(length > 0)) return 0;
-  const Vec3d off = position(surface_, p) - 0.5 * (region.position[at(a)] + region.position[at(b)]);
+  const Vec3d off = position(surface_, p) - middle;
   return std::abs(off | normal) / length;
 }
 
 double PolygonJudge::error_cost(const RegionCorners& region, int a, int b) const {
   if (!(options_.epsilon > 0) || !std::isfinite(options_.epsilon)) return 0;
   return error_weight * std::min(chord_error(region, a, b) / options_.epsilon, max_error_ratio);
+}
+
+double PolygonJudge::chord_cost(const RegionCorners& region, int a, int b) const {
+  return 0.5 * error_cost(region, a, b) + (region.is_forbidden(a, b) ? forbidden : 0);
 }
 
 // Which way the surface faces at some corners; where all lie on features, in the region.
@@ -97,7 +102,7 @@ double PolygonJudge::triangle_cost(const RegionCorners& region, int a, int b, in
   if ((area | reference_normal(region, {a, b, c})) <= 0) cost += folded;
   // Every inner chord is a side of two pieces.
   for (const auto& side : {std::array<int, 2>{a, b}, {b, c}, {c, a}})
-    if (!region.is_side(side[0], side[1])) cost += 0.5 * error_cost(region, side[0], side[1]);
+    if (!region.is_side(side[0], side[1])) cost += chord_cost(region, side[0], side[1]);
   return cost;
 }
 
@@ -130,7 +135,7 @@ double PolygonJudge::quad_cost(const RegionCorners& region, const std::array<int
   cost += error_cost(region, quad[first_corner], quad[first_corner + 2]);
   for (size_t k = 0; k < 4; ++k)
     if (!region.is_side(quad[k], quad[(k + 1) % 4]))
-      cost += 0.5 * error_cost(region, quad[k], quad[(k + 1) % 4]);
+      cost += chord_cost(region, quad[k], quad[(k + 1) % 4]);
   return cost;
 }
 

@@ -1,6 +1,7 @@
 // How good a polygon is in space: convex, not folded, well shaped, near the surface.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <vector>
@@ -18,8 +19,15 @@ struct RegionCorners {
   std::vector<Vec3d> corner_normal;        ///< of the surface there; zero on a feature, where it has none
   size_t loop = 0;                         ///< so many of them, the first, go around it
   Vec3d normal{0, 0, 0};                   ///< unit, of the surface inside the region
+  /// Pairs of corners, the lower first, that have an edge outside the region and must not get another.
+  std::vector<std::array<int, 2>> forbidden;
   size_t size() const { return node.size(); }
   void add(const NetworkGraph& network, int n);
+  void forbid(int a, int b) { forbidden.push_back({std::min(a, b), std::max(a, b)}); }
+  bool is_forbidden(int a, int b) const {
+    return std::find(forbidden.begin(), forbidden.end(), std::array<int, 2>{std::min(a, b), std::max(a, b)}) !=
+           forbidden.end();
+  }
   /// Whether b follows a on the border of the region.
   bool is_side(int a, int b) const {
     const int n = static_cast<int>(loop);
@@ -35,7 +43,7 @@ struct JudgeOptions {
 /// Costs are sums over polygons: about 1 for a square, more for what one would rather not have.
 class PolygonJudge {
  public:
-  PolygonJudge(const SurfaceRef& surface, const UvLocator& locator, const SurfaceNormals& normals,
+  PolygonJudge(const SurfaceRef& surface, const SurfaceLocator& locator, const SurfaceNormals& normals,
                const JudgeOptions& options);
 
   double triangle_cost(const RegionCorners& region, int a, int b, int c) const;
@@ -46,15 +54,17 @@ class PolygonJudge {
   double chord_error(const RegionCorners& region, int a, int b) const;
   /// Convex in its plane of best fit, up to a tolerance below the 5 degrees that the result is held to.
   static bool is_convex(const std::vector<Vec3d>& corners);
-  /// Normal of the surface near a point of the parameter plane.
-  Vec3d surface_normal(const Vec2d& uv, OpenMesh::FaceHandle start) const;
+  /// Normal of the surface near a place, see SurfaceLocator.
+  Vec3d surface_normal(const Vec2d& uv, const Vec3d& place, OpenMesh::FaceHandle start) const;
 
  private:
+  /// Of an inner side of a polygon, which is a side of two.
+  double chord_cost(const RegionCorners& region, int a, int b) const;
   double error_cost(const RegionCorners& region, int a, int b) const;
   static Vec3d reference_normal(const RegionCorners& region, std::initializer_list<int> corners);
 
   const SurfaceRef& surface_;
-  const UvLocator& locator_;
+  const SurfaceLocator& locator_;
   const SurfaceNormals& normals_;
   JudgeOptions options_;
 };

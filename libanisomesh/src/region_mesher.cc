@@ -33,6 +33,7 @@ class RegionMesher {
   double distance(const Probe& probe, int a, int b, int c) const;
   double distance(const Probe& probe, const std::vector<std::array<int, 3>>& triangles) const;
   std::vector<std::array<int, 3>> as_drawn(const std::vector<Piece>& pieces) const;
+  bool has_forbidden(const std::vector<Piece>& pieces) const;
   bool add_worst(SmallTriangulation& triangulation, RegionPolygons& result);
   double border_distance(const Vec3d& p) const;
   void flip_to_lower_cost(SmallTriangulation& triangulation) const;
@@ -78,6 +79,17 @@ std::vector<std::array<int, 3>> RegionMesher::as_drawn(const std::vector<Piece>&
       triangles.push_back({p[first], p[(first + i) % p.size()], p[(first + i + 1) % p.size()]});
   }
   return triangles;
+}
+
+bool RegionMesher::has_forbidden(const std::vector<Piece>& pieces) const {
+  if (corners_.forbidden.empty()) return false;
+  return std::any_of(pieces.begin(), pieces.end(), [&](const Piece& p) {
+    for (size_t i = 0; i < p.size(); ++i) {
+      const int a = p[i], b = p[(i + 1) % p.size()];
+      if (!corners_.is_side(a, b) && corners_.is_forbidden(a, b)) return true;
+    }
+    return false;
+  });
 }
 
 double RegionMesher::border_distance(const Vec3d& p) const {
@@ -171,14 +183,15 @@ RegionPolygons RegionMesher::run() {
       const bool near = std::all_of(region_.probes.begin(), region_.probes.end(), [&](const Probe& probe) {
         return distance(probe, drawn) <= options_.cell_tolerance;
       });
-      if (near) return result;
+      if (near && !has_forbidden(result.polygons)) return result;
     }
   }
   SmallTriangulation triangulation(corners_.uv, region_.triangles);
   const int n = static_cast<int>(corners_.size());
-  for (int i = n - static_cast<int>(region_.isotropic); i < n; ++i) triangulation.insert(i);
+  if (!region_.holds_samples)
+    for (int i = n - static_cast<int>(region_.isotropic); i < n; ++i) triangulation.insert(i);
   if (options_.flip_edges) flip_to_lower_cost(triangulation);
-  while (bounded && result.added.size() < max_added && add_worst(triangulation, result))
+  while (bounded && region_.may_add && result.added.size() < max_added && add_worst(triangulation, result))
     if (options_.flip_edges) flip_to_lower_cost(triangulation);
   result.polygons = pieces_of(triangulation);
   return result;

@@ -119,7 +119,7 @@ Topology topology_of(const OpenMesh::TriConnectivity& mesh) {
 bool Soundness::is_against(const Vec2d& uv, OpenMesh::FaceHandle start, const Vec3d& place,
                            const Vec3d& normal, double diameter) const {
   const auto& mesh = surface_.connectivity();
-  const SurfacePoint below = locator_.locate(uv, start);
+  const SurfacePoint below = locator_.locate(uv, place, start);
   const double limit = (position(surface_, below) - place).norm() + reach * diameter;
   std::vector<OpenMesh::FaceHandle> found{below.face};
   double nearest = std::numeric_limits<double>::infinity(), nearest_right = nearest;

@@ -12,7 +12,7 @@ namespace anisomesh::detail {
 
 class Soundness {
  public:
-  Soundness(const SurfaceRef& surface, const UvLocator& locator, const PolygonJudge& judge, bool convex)
+  Soundness(const SurfaceRef& surface, const SurfaceLocator& locator, const PolygonJudge& judge, bool convex)
       : surface_(surface), locator_(locator), judge_(judge), convex_(convex) {}
 
   /// Partitions anew around unsound polygons. \return those that are left
@@ -31,7 +31,7 @@ class Soundness {
                   int max_degree) const;
 
   const SurfaceRef& surface_;
-  const UvLocator& locator_;
+  const SurfaceLocator& locator_;
   const PolygonJudge& judge_;
   bool convex_;
 };

@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "anisomesh/surface.hh"
+#include "surface_locator.hh"
 
 namespace anisomesh::detail {
 
-class UvLocator {
+class UvLocator final : public SurfaceLocator {
  public:
   /// Reads: uv. The surface must outlive the locator.
   explicit UvLocator(const SurfaceRef& surface);
@@ -18,6 +18,10 @@ class UvLocator {
   /// The point of the surface at `uv`. Outside the domain, and beyond a dent of the border that the walk does
   /// not get around, the place where the walk met the border, with `inside` false.
   SurfacePoint locate(const Vec2d& uv, OpenMesh::FaceHandle start, bool* inside = nullptr) const;
+  SurfacePoint locate(const Vec2d& uv, const Vec3d&, OpenMesh::FaceHandle start,
+                      bool* inside = nullptr) const override {
+    return locate(uv, start, inside);
+  }
   /// The same, and if the walk fails a search through all faces; for points that are known to be inside.
   SurfacePoint locate_surely(const Vec2d& uv, OpenMesh::FaceHandle start) const;
 

@@ -1,0 +1,267 @@
+#include "mesh_embedding.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "anisomesh/errors.hh"
+
+namespace anisomesh::detail {
+
+namespace {
+
+using OpenMesh::FaceHandle;
+using OpenMesh::HalfedgeHandle;
+using OpenMesh::VertexHandle;
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+constexpr double least_cosine = 0.3;   // to the normal that the triangle had before
+constexpr double least_shape = 0.02;   // twice the area over the square of the longest side
+constexpr double least_area = 1e-7;    // likewise, where a triangle must only not be turned over
+constexpr double pi = 3.14159265358979323846;
+constexpr int flip_passes = 20;
+constexpr size_t nearest_tried = 6;    // neighbours that a vertex may be moved to, unless nothing else is left
+
+}  // namespace
+
+MeshEmbedding::MeshEmbedding(const SurfaceRef& surface, const Overlay& overlay, const NetworkGraph& network) {
+  mesh_.reserve(overlay.points.size(), 3 * overlay.points.size(), overlay.triangles.size());
+  for (const Vec3d& p : network.positions) mesh_.add_vertex(p);
+  for (size_t t = 0; t < overlay.triangles.size(); ++t) {
+    const auto& n = overlay.triangles[t];
+    if (!mesh_.add_face(VertexHandle(n[0]), VertexHandle(n[1]), VertexHandle(n[2])).is_valid())
+      throw CannotProcess("the lines cannot be drawn on triangle " + std::to_string(overlay.faces[t]) +
+                          " of the surface; it is degenerate or not manifold there");
+    const auto c = surface.corners(FaceHandle(overlay.faces[t]));
+    Vec3d normal = cross(surface.point(c.vertex[1]) - surface.point(c.vertex[0]),
+                         surface.point(c.vertex[2]) - surface.point(c.vertex[0]));
+    const double length = normal.norm();
+    normals_.push_back(length > 0 ? normal / length : normal);
+  }
+  label_regions(network);
+}
+
+void MeshEmbedding::label_regions(const NetworkGraph& network) {
+  regions_.assign(mesh_.n_faces(), -1);
+  region_of_vertex_.assign(mesh_.n_vertices(), -1);
+  std::vector<FaceHandle> found;
+  int count = 0;
+  for (const auto start : mesh_.faces()) {
+    if (regions_[at(start.idx())] >= 0) continue;
+    found.assign(1, start);
+    regions_[at(start.idx())] = count;
+    for (size_t i = 0; i < found.size(); ++i)
+      for (const auto h : mesh_.fh_range(found[i])) {
+        const FaceHandle next = mesh_.opposite_face_handle(h);
+        if (!next.is_valid() || regions_[at(next.idx())] >= 0) continue;
+        if (network.graph.find_edge(mesh_.from_vertex_handle(h).idx(), mesh_.to_vertex_handle(h).idx()) >= 0)
+          continue;
+        regions_[at(next.idx())] = count;
+        found.push_back(next);
+      }
+    ++count;
+  }
+  for (const auto v : mesh_.vertices())
+    if (network.graph.degree(v.idx()) == 0 && !mesh_.is_isolated(v))
+      region_of_vertex_[at(v.idx())] = regions_[at(mesh_.vf_begin(v)->idx())];
+}
+
+// Vertices beyond the two across the edge that both its ends have as neighbours would become a pinch; a
+// vertex of three neighbours across the edge would keep two.
+bool MeshEmbedding::is_topology_kept(HalfedgeHandle h) {
+  if (!mesh_.is_collapse_ok(h)) return false;
+  for (const auto side : {h, mesh_.opposite_halfedge_handle(h)}) {
+    if (mesh_.is_boundary(side)) continue;
+    const VertexHandle apex = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(side));
+    if (!mesh_.is_boundary(apex) && mesh_.valence(apex) <= 3) return false;
+  }
+  // Where the last triangles of a border loop are: a loop of three edges stays.
+  for (const auto side : {h, mesh_.opposite_halfedge_handle(h)})
+    if (mesh_.is_boundary(side) &&
+        mesh_.next_halfedge_handle(mesh_.next_halfedge_handle(mesh_.next_halfedge_handle(side))) == side)
+      return false;
+  return true;
+}
+
+bool MeshEmbedding::is_shape_kept(HalfedgeHandle h, Care care) const {
+  const VertexHandle gone = mesh_.from_vertex_handle(h), keep = mesh_.to_vertex_handle(h);
+  const Vec3d& place = mesh_.point(keep);
+  for (const auto out : mesh_.voh_range(gone)) {
+    if (mesh_.is_boundary(out)) continue;
+    const VertexHandle a = mesh_.to_vertex_handle(out),
+                       b = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(out));
+    if (a == keep || b == keep) continue;
+    const Vec3d ab = mesh_.point(b) - mesh_.point(a), along = mesh_.point(a) - place;
+    const Vec3d normal = cross(along, mesh_.point(b) - place);
+    const double length = normal.norm();
+    const double longest =
+        std::max({ab.sqrnorm(), along.sqrnorm(), (mesh_.point(b) - place).sqrnorm()});
+    const Vec3d& before = normals_[at(mesh_.face_handle(out).idx())];
+    const double cosine = care == Care::shape ? least_cosine : 0.0;
+    if (before.sqrnorm() > 0 && !((normal | before) > cosine * length)) return false;
+    if (!(length > least_area * longest)) return false;
+    if (care == Care::shape && length < least_shape * longest) {
+      const Vec3d old = cross(mesh_.point(a) - mesh_.point(gone), mesh_.point(b) - mesh_.point(gone));
+      if (length < old.norm()) return false;  // no worse than it was
+    }
+  }
+  return true;
+}
+
+bool MeshEmbedding::collapse(VertexHandle gone, VertexHandle keep, Care care) {
+  const HalfedgeHandle h = mesh_.find_halfedge(gone, keep);
+  if (!h.is_valid() || !is_topology_kept(h)) return false;
+  if (care != Care::topology && !is_shape_kept(h, care)) return false;
+  mesh_.collapse(h);
+  for (const auto f : mesh_.vf_range(keep)) {
+    auto v = mesh_.cfv_begin(f);
+    const Vec3d &p = mesh_.point(*v), &q = mesh_.point(*++v), &r = mesh_.point(*++v);
+    const Vec3d normal = cross(q - p, r - p);
+    const double length = normal.norm();
+    const double longest = std::max({(q - p).sqrnorm(), (r - q).sqrnorm(), (p - r).sqrnorm()});
+    if (length > 1e-4 * longest) normals_[at(f.idx())] = normal / length;
+  }
+  return true;
+}
+
+bool MeshEmbedding::straighten(int a, int node, int b) {
+  const VertexHandle from(node);
+  const auto distance = [&](int n) { return (mesh_.point(VertexHandle(n)) - mesh_.point(from)).sqrnorm(); };
+  if (distance(b) < distance(a)) std::swap(a, b);
+  return collapse(from, VertexHandle(a), Care::turning) || collapse(from, VertexHandle(b), Care::turning) ||
+         cut_corner(VertexHandle(a), from, VertexHandle(b));
+}
+
+// The triangle that the chain gives up holds no other vertex: what lies around it can be triangulated
+// without turning a triangle over, if not as a fan.
+bool MeshEmbedding::cut_corner(VertexHandle a, VertexHandle node, VertexHandle b) {
+  Vec3d normal(0, 0, 0);
+  std::vector<VertexHandle> fan;
+  for (const auto f : mesh_.vf_range(node)) normal += normals_[at(f.idx())];
+  const auto turn = [&](const Vec3d& p, const Vec3d& q, const Vec3d& r) { return cross(q - p, r - p) | normal; };
+  const Vec3d &pa = mesh_.point(a), &pn = mesh_.point(node), &pb = mesh_.point(b);
+  const double side = turn(pa, pn, pb) < 0 ? -1 : 1;
+  for (const auto w : mesh_.vv_range(node)) {
+    if (w == a || w == b) continue;
+    const Vec3d& p = mesh_.point(w);
+    if (side * turn(pa, pn, p) >= 0 && side * turn(pn, pb, p) >= 0 && side * turn(pb, pa, p) >= 0) return false;
+    if (!mesh_.find_halfedge(w, a).is_valid()) fan.push_back(w);
+  }
+  if (!collapse(node, a, Care::topology)) return false;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (auto& w : fan) {
+      if (!w.is_valid()) continue;
+      const auto h = mesh_.find_halfedge(a, w);
+      if (!h.is_valid() || mesh_.is_boundary(mesh_.edge_handle(h))) continue;
+      const auto left = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)),
+                 right = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(mesh_.opposite_halfedge_handle(h)));
+      const Vec3d &pw = mesh_.point(w), &pl = mesh_.point(left), &pr = mesh_.point(right);
+      const double now = std::min(turn(pa, pw, pl), turn(pw, pa, pr));
+      const double then = std::min(turn(pl, pr, pw), turn(pr, pl, pa));
+      if (now > 0 || then <= now || !mesh_.is_flip_ok(mesh_.edge_handle(h))) continue;
+      const auto faces = {mesh_.face_handle(h), mesh_.opposite_face_handle(h)};
+      mesh_.flip(mesh_.edge_handle(h));
+      for (const auto f : faces) normals_[at(f.idx())] = normal.normalized();
+      w = VertexHandle();
+      changed = true;
+    }
+  }
+  return true;
+}
+
+bool MeshEmbedding::contract(int keep, int gone, const std::vector<int>&) {
+  return collapse(VertexHandle(gone), VertexHandle(keep), Care::turning);
+}
+
+void MeshEmbedding::drop(int node) {
+  const VertexHandle v(node);
+  if (!mesh_.status(v).deleted() && !mesh_.is_isolated(v)) take_out(v, Care::turning);
+}
+
+bool MeshEmbedding::take_out(VertexHandle v, Care care) {
+  std::vector<std::pair<double, VertexHandle>> near;
+  for (const auto w : mesh_.vv_range(v)) near.emplace_back((mesh_.point(w) - mesh_.point(v)).sqrnorm(), w);
+  std::sort(near.begin(), near.end());
+  const size_t tried = care == Care::topology ? near.size() : std::min(near.size(), nearest_tried);
+  for (size_t i = 0; i < tried; ++i)
+    if (collapse(v, near[i].second, care)) return true;
+  return false;
+}
+
+// In passes that leave the neighbours of what went alone, so that the triangles stay of like size.
+void MeshEmbedding::coarsen(const NetworkGraph& network) {
+  std::vector<int> waiting;
+  for (const auto v : mesh_.all_vertices())
+    if (!mesh_.status(v).deleted() && !mesh_.is_isolated(v) && network.graph.degree(v.idx()) == 0 &&
+        !network.fixed[at(v.idx())])
+      waiting.push_back(v.idx());
+  std::vector<int> touched(mesh_.n_vertices(), -1);
+  int pass = 0;
+  for (const Care care : {Care::shape, Care::turning, Care::topology}) {
+    while (true) {
+      ++pass;
+      std::vector<int> left;
+      size_t skipped = 0;
+      for (const int n : waiting) {
+        const VertexHandle v(n);
+        if (touched[at(n)] == pass && care == Care::shape) {
+          left.push_back(n);
+          ++skipped;
+          continue;
+        }
+        std::vector<int> around;
+        for (const auto w : mesh_.vv_range(v)) around.push_back(w.idx());
+        if (take_out(v, care))
+          for (const int w : around) touched[at(w)] = pass;
+        else
+          left.push_back(n);
+      }
+      const bool done = left.size() == waiting.size() || left.empty();
+      waiting = std::move(left);
+      if (done) break;
+    }
+  }
+}
+
+void MeshEmbedding::flip(const NetworkGraph& network) {
+  const auto angle = [this](VertexHandle apex, VertexHandle a, VertexHandle b) {
+    const Vec3d u = mesh_.point(a) - mesh_.point(apex), v = mesh_.point(b) - mesh_.point(apex);
+    return std::atan2(cross(u, v).norm(), u | v);
+  };
+  const auto normal = [this](VertexHandle a, VertexHandle b, VertexHandle c) {
+    return cross(mesh_.point(b) - mesh_.point(a), mesh_.point(c) - mesh_.point(a));
+  };
+  bool changed = true;
+  for (int pass = 0; changed && pass < flip_passes; ++pass) {
+    changed = false;
+    for (const auto e : mesh_.edges()) {
+      if (mesh_.status(e).deleted() || mesh_.is_boundary(e)) continue;
+      const auto h = mesh_.halfedge_handle(e, 0), o = mesh_.halfedge_handle(e, 1);
+      const VertexHandle a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
+      const VertexHandle c = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)),
+                         d = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(o));
+      if (network.graph.find_edge(a.idx(), b.idx()) >= 0) continue;
+      if (angle(c, a, b) + angle(d, a, b) <= pi + 1e-6 || !mesh_.is_flip_ok(e)) continue;
+      const Vec3d n1 = normal(a, d, c), n2 = normal(d, b, c);
+      const Vec3d before = normal(a, b, c) + normal(b, a, d);
+      if (!((n1 | before) > 0 && (n2 | before) > 0)) continue;
+      mesh_.flip(e);
+      changed = true;
+    }
+  }
+}
+
+std::vector<MeshEmbedding::Triangle> MeshEmbedding::triangles() const {
+  std::vector<Triangle> result;
+  for (const auto f : mesh_.faces()) {
+    if (mesh_.status(f).deleted()) continue;
+    auto v = mesh_.cfv_begin(f);
+    const int a = v->idx(), b = (++v)->idx(), c = (++v)->idx();
+    result.push_back({{a, b, c}, regions_[at(f.idx())]});
+  }
+  return result;
+}
+
+}  // namespace anisomesh::detail

@@ -1,0 +1,20 @@
+// Finds the surface point nearest to a place in space by going downhill from a face nearby.
+#pragma once
+
+#include "surface_arrays.hh"
+#include "surface_locator.hh"
+
+namespace anisomesh::detail {
+
+/// Never leaves the sheet it starts on: what is near in space but far along the surface is not found.
+class NearLocator final : public SurfaceLocator {
+ public:
+  explicit NearLocator(const SurfaceRef& surface) : mesh_(surface) {}
+  SurfacePoint locate(const Vec2d& uv, const Vec3d& place, OpenMesh::FaceHandle start,
+                      bool* inside = nullptr) const override;
+
+ private:
+  SurfaceArrays mesh_;
+};
+
+}  // namespace anisomesh::detail

@@ -1,0 +1,129 @@
+#include "region_layout.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numerics/bvh.hh"
+
+namespace anisomesh::detail {
+
+namespace {
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+constexpr double pi = 3.14159265358979323846;
+constexpr int tutte_rounds = 200;
+constexpr double least_turn = 1e-3;  // of a projected triangle: twice its area over the squared longest side
+
+double turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+// Coordinates across the normal of a region.
+class Projection {
+ public:
+  explicit Projection(const RegionCorners& corners) : origin_(corners.position.front()) {
+    const double length = corners.normal.norm();
+    const Vec3d n = length > 0 ? corners.normal / length : Vec3d(0, 0, 1);
+    const int least = std::abs(n[0]) <= std::abs(n[1]) ? (std::abs(n[0]) <= std::abs(n[2]) ? 0 : 2)
+                                                       : (std::abs(n[1]) <= std::abs(n[2]) ? 1 : 2);
+    Vec3d axis(0, 0, 0);
+    axis[least] = 1;
+    x_ = cross(axis, n).normalized();
+    y_ = cross(n, x_);
+  }
+  Vec2d operator()(const Vec3d& place) const { return {(place - origin_) | x_, (place - origin_) | y_}; }
+
+ private:
+  Vec3d origin_, x_, y_;
+};
+
+bool is_unfolded(const RegionCorners& corners, const std::vector<std::array<int, 3>>& triangles) {
+  return std::all_of(triangles.begin(), triangles.end(), [&](const std::array<int, 3>& t) {
+    const Vec2d &a = corners.uv[at(t[0])], &b = corners.uv[at(t[1])], &c = corners.uv[at(t[2])];
+    const double longest = std::max({(b - a).sqrnorm(), (c - b).sqrnorm(), (a - c).sqrnorm()});
+    return turn(a, b, c) > least_turn * longest;
+  });
+}
+
+// The loop encloses an area on its left and no two of its sides meet.
+bool is_simple(const RegionCorners& corners) {
+  const size_t n = corners.loop;
+  double area = 0;
+  for (size_t i = 1; i + 1 < n; ++i) area += turn(corners.uv[0], corners.uv[i], corners.uv[i + 1]);
+  if (!(area > 0)) return false;
+  for (size_t i = 0; i < n; ++i)
+    for (size_t k = i + 2; k < n; ++k) {
+      if (i == 0 && k == n - 1) continue;
+      const Vec2d &a = corners.uv[i], &b = corners.uv[(i + 1) % n];
+      const Vec2d &c = corners.uv[k], &d = corners.uv[(k + 1) % n];
+      if (turn(a, b, c) * turn(a, b, d) <= 0 && turn(c, d, a) * turn(c, d, b) <= 0) return false;
+    }
+  return true;
+}
+
+void spread_on_circle(RegionCorners& corners, const std::vector<std::array<int, 3>>& triangles) {
+  const size_t n = corners.loop;
+  std::vector<double> arc(n + 1, 0);
+  for (size_t i = 0; i < n; ++i)
+    arc[i + 1] = arc[i] + (corners.position[(i + 1) % n] - corners.position[i]).norm();
+  // Half by length and half by number, so that short sides are not lost to rounding.
+  const double total = arc[n] > 0 ? arc[n] : 1;
+  for (size_t i = 0; i < n; ++i) {
+    const double share = 0.5 * arc[i] / total + 0.5 * static_cast<double>(i) / static_cast<double>(n);
+    corners.uv[i] = {std::cos(2 * pi * share), std::sin(2 * pi * share)};
+  }
+  std::vector<std::vector<int>> neighbours(corners.size());
+  for (const auto& t : triangles)
+    for (size_t k = 0; k < 3; ++k) {
+      neighbours[at(t[k])].push_back(t[(k + 1) % 3]);
+      neighbours[at(t[k])].push_back(t[(k + 2) % 3]);
+    }
+  for (size_t i = n; i < corners.size(); ++i) corners.uv[i] = {0, 0};
+  for (int round = 0; round < tutte_rounds; ++round)
+    for (size_t i = n; i < corners.size(); ++i) {
+      Vec2d sum(0, 0);
+      for (const int k : neighbours[i]) sum += corners.uv[at(k)];
+      if (!neighbours[i].empty()) corners.uv[i] = sum / static_cast<double>(neighbours[i].size());
+    }
+}
+
+}  // namespace
+
+bool lay_out(RegionCorners& corners, const std::vector<std::array<int, 3>>& triangles) {
+  const Projection projection(corners);
+  for (size_t i = 0; i < corners.size(); ++i) corners.uv[i] = projection(corners.position[i]);
+  if (triangles.empty() ? is_simple(corners) : is_unfolded(corners, triangles)) return true;
+  // Other triangles may be drawn without folds where these are not.
+  if (!triangles.empty() && corners.loop == corners.size() && is_simple(corners)) return true;
+  spread_on_circle(corners, triangles);
+  return false;
+}
+
+void lay_out(Region& region) {
+  const RegionCorners& c = region.corners;
+  if (lay_out(region.corners, region.triangles)) {
+    const Projection projection(c);
+    for (Probe& probe : region.probes) probe.uv = projection(probe.position);
+    return;
+  }
+  const auto is_beside = [&](Probe& probe) {
+    double least = std::numeric_limits<double>::infinity();
+    bool beside = true;
+    for (const auto& t : region.triangles) {
+      const Vec3d &p = c.position[at(t[0])], &q = c.position[at(t[1])], &r = c.position[at(t[2])];
+      const Vec3d b = closest_barycentric(probe.position, p, q, r);
+      const double squared = (b[0] * p + b[1] * q + b[2] * r - probe.position).sqrnorm();
+      if (squared >= least) continue;
+      least = squared;
+      beside = std::min({b[0], b[1], b[2]}) <= 0;
+      probe.uv = b[0] * c.uv[at(t[0])] + b[1] * c.uv[at(t[1])] + b[2] * c.uv[at(t[2])];
+    }
+    return beside;
+  };
+  region.probes.erase(std::remove_if(region.probes.begin(), region.probes.end(), is_beside),
+                      region.probes.end());
+}
+
+}  // namespace anisomesh::detail
