@@ -149,7 +149,8 @@ void Decimator::order_chain(const std::vector<int>& chain, std::vector<std::pair
         split = i;
       }
     }
-    if (!(farthest > tolerance_between(chain, r.begin, r.end))) removable.emplace_back(r.depth, chain[at(split)]);
+    if (!(farthest > tolerance_between(chain, r.begin, r.end)))
+      removable.emplace_back(r.depth, chain[at(split)]);
     ranges.push_back({r.begin, split, r.depth + 1});
     ranges.push_back({split, r.end, r.depth + 1});
   }

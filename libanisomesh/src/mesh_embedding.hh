@@ -20,8 +20,9 @@ struct OverlayTraits : OpenMesh::DefaultTraitsDouble {
 using OverlayMesh = OpenMesh::TriMesh_ArrayKernelT<OverlayTraits>;
 
 /// Starts as the overlay and loses a vertex with each change of the network: an edge collapse that keeps the
-/// topology ("no new intersection" on a manifold) and turns no triangle over. Nodes keep their index. Copies
-/// are independent.
+/// topology ("no new intersection" on a manifold) and turns no triangle over. What goes stays pinned to the
+/// triangles that are left, by laying the star of each vertex flat before it goes (Lee et al. 1998, MAPS):
+/// the map from the surface to the triangles. Nodes keep their index. Copies are independent.
 class MeshEmbedding final : public Embedding {
  public:
   MeshEmbedding(const SurfaceRef& surface, const Overlay& overlay, const NetworkGraph& network);
@@ -34,32 +35,47 @@ class MeshEmbedding final : public Embedding {
   /// allows.
   void coarsen(const NetworkGraph& network);
 
-  /// Flips edges that are not the network's until the triangles are well shaped (Delaunay's rule, over the two
-  /// triangles laid flat).
+  /// Flips edges that are not the network's until the triangles are well shaped (Delaunay's rule, over the
+  /// two triangles laid flat).
   void flip(const NetworkGraph& network);
 
+  /// A vertex of the surface that is gone, where it would lie in a triangle.
+  struct Pinned {
+    int vertex;
+    Vec3d barycentric;
+  };
   struct Triangle {
     std::array<int, 3> node;
-    int region;  ///< of the network before it was decimated
+    const std::vector<Pinned>* pinned;  ///< good until the next change
   };
   std::vector<Triangle> triangles() const;
-  /// The region a vertex of the surface lies in, of the network before it was decimated; -1 on an edge of it.
-  int region_of_vertex(int vertex) const { return region_of_vertex_[static_cast<size_t>(vertex)]; }
 
  private:
   enum class Care { shape, turning, topology };
+  /// The triangles around a vertex, laid flat, with what is pinned in them.
+  struct FlatStar {
+    struct Point {
+      int vertex;
+      Vec2d place;
+    };
+    std::vector<std::pair<int, Vec2d>> ring;  ///< vertices around it
+    std::vector<Point> points;
+  };
 
-  void label_regions(const NetworkGraph& network);
+  void lay_flat(OpenMesh::VertexHandle v);
+  void pin_again(OpenMesh::VertexHandle keep);
   bool collapse(OpenMesh::VertexHandle gone, OpenMesh::VertexHandle keep, Care care);
   bool is_topology_kept(OpenMesh::HalfedgeHandle h);
   bool is_shape_kept(OpenMesh::HalfedgeHandle h, Care care) const;
   bool cut_corner(OpenMesh::VertexHandle a, OpenMesh::VertexHandle node, OpenMesh::VertexHandle b);
+  void flip_edge(OpenMesh::EdgeHandle e);
   bool take_out(OpenMesh::VertexHandle v, Care care);
 
   OverlayMesh mesh_;
-  std::vector<Vec3d> normals_;  ///< of each triangle, unit
-  std::vector<int> regions_;    ///< of each triangle
-  std::vector<int> region_of_vertex_;
+  std::vector<Vec3d> normals_;               ///< of each triangle, unit
+  std::vector<std::vector<Pinned>> pinned_;  ///< in each triangle
+  int vertices_;                             ///< of the surface; the first nodes
+  FlatStar star_;                            ///< only during a collapse
 };
 
 }  // namespace anisomesh::detail

@@ -94,9 +94,9 @@ void Drawing::add_vertices() {
     if (mesh.is_boundary(h)) h = mesh.opposite_halfedge_handle(h);
     SurfacePoint point{mesh.face_handle(h), {0, 0, 0}};
     point.barycentric[arrays_.corner_of(point.face.idx(), v.idx())] = 1;
-    const Origin origin = mesh.is_boundary(v)              ? Origin::border
+    const Origin origin = mesh.is_boundary(v)            ? Origin::border
                           : arrays_.at_wall[at(v.idx())] ? Origin::feature
-                                                           : Origin::line;
+                                                         : Origin::line;
     add_node(point, origin, false);
   }
   for (const auto v : feature_skeleton(surface_, corner_angle_).corners) {
@@ -118,7 +118,8 @@ int Drawing::node_on_edge(const EdgeCrossing& crossing, int face, Origin origin,
   for (const EdgeNode& n : nodes)
     if (n.t == t) return n.node;
   SurfacePoint point{OpenMesh::FaceHandle(face), {0, 0, 0}};
-  const int low = arrays_.corner_of(face, crossing.vertex[0]), high = arrays_.corner_of(face, crossing.vertex[1]);
+  const int low = arrays_.corner_of(face, crossing.vertex[0]),
+            high = arrays_.corner_of(face, crossing.vertex[1]);
   point.barycentric[low] = 1 - t;
   point.barycentric[high] = t;
   const auto& c = arrays_.corners[at(face)];

@@ -161,7 +161,10 @@ void PlaneCells::gather_probes() {
       if (mesh.is_boundary(v) || mesh.face_handle(mesh.halfedge_handle(v)) != f) continue;
       const int cell = cell_at(locator_.uv(v));
       if (cell < 0) continue;
-      Probe probe{locator_.uv(v), surface_.point(v), {f, {0, 0, 0}}};
+      Probe probe;
+      probe.uv = locator_.uv(v);
+      probe.position = surface_.point(v);
+      probe.point.face = f;
       probe.point.barycentric[k] = 1;
       cells_[at(cell)].probes.push_back(probe);
     }
@@ -170,8 +173,8 @@ void PlaneCells::gather_probes() {
 
 }  // namespace
 
-std::vector<Cell> plane_cells(const NetworkGraph& network, const SurfaceRef& surface, const UvLocator& locator,
-                              bool probes) {
+std::vector<Cell> plane_cells(const NetworkGraph& network, const SurfaceRef& surface,
+                              const UvLocator& locator, bool probes) {
   return PlaneCells(network, surface, locator).run(probes);
 }
 

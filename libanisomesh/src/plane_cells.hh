@@ -8,7 +8,7 @@ namespace anisomesh::detail {
 
 /// \param probes whether the vertices of the surface are wanted as probes
 /// \throw CannotProcess if the network is not planar
-std::vector<Cell> plane_cells(const NetworkGraph& network, const SurfaceRef& surface, const UvLocator& locator,
-                              bool probes);
+std::vector<Cell> plane_cells(const NetworkGraph& network, const SurfaceRef& surface,
+                              const UvLocator& locator, bool probes);
 
 }  // namespace anisomesh::detail

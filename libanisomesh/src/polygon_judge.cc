@@ -49,8 +49,8 @@ void RegionCorners::add(const NetworkGraph& network, int n) {
   corner_normal.push_back(on_feature ? Vec3d(0, 0, 0) : network.normals[at(n)]);
 }
 
-PolygonJudge::PolygonJudge(const SurfaceRef& surface, const SurfaceLocator& locator, const SurfaceNormals& normals,
-                           const JudgeOptions& options)
+PolygonJudge::PolygonJudge(const SurfaceRef& surface, const SurfaceLocator& locator,
+                           const SurfaceNormals& normals, const JudgeOptions& options)
     : surface_(surface), locator_(locator), normals_(normals), options_(options) {}
 
 Vec3d PolygonJudge::surface_normal(const Vec2d& uv, const Vec3d& place, OpenMesh::FaceHandle start) const {
@@ -134,8 +134,7 @@ double PolygonJudge::quad_cost(const RegionCorners& region, const std::array<int
   if (bend > options_.max_bend_degrees * degree) cost += bent;
   cost += error_cost(region, quad[first_corner], quad[first_corner + 2]);
   for (size_t k = 0; k < 4; ++k)
-    if (!region.is_side(quad[k], quad[(k + 1) % 4]))
-      cost += chord_cost(region, quad[k], quad[(k + 1) % 4]);
+    if (!region.is_side(quad[k], quad[(k + 1) % 4])) cost += chord_cost(region, quad[k], quad[(k + 1) % 4]);
   return cost;
 }
 

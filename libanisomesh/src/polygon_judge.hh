@@ -25,8 +25,8 @@ struct RegionCorners {
   void add(const NetworkGraph& network, int n);
   void forbid(int a, int b) { forbidden.push_back({std::min(a, b), std::max(a, b)}); }
   bool is_forbidden(int a, int b) const {
-    return std::find(forbidden.begin(), forbidden.end(), std::array<int, 2>{std::min(a, b), std::max(a, b)}) !=
-           forbidden.end();
+    return std::find(forbidden.begin(), forbidden.end(),
+                     std::array<int, 2>{std::min(a, b), std::max(a, b)}) != forbidden.end();
   }
   /// Whether b follows a on the border of the region.
   bool is_side(int a, int b) const {

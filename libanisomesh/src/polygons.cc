@@ -79,8 +79,8 @@ void Extractor::set_normal(const Cell& cell, Vec3d& normal) const {
     }
     const Vec3d &a = network_.positions[at(node[0])], &b = network_.positions[at(node[1])],
                 &c = network_.positions[at(node[2])];
-    normal += cross(b - a, c - a).norm() *
-              judge_.surface_normal(middle, place, network_.points[at(node[0])].face);
+    normal +=
+        cross(b - a, c - a).norm() * judge_.surface_normal(middle, place, network_.points[at(node[0])].face);
   }
   const double length = normal.norm();
   if (length > 0) normal /= length;
@@ -100,17 +100,16 @@ Region Extractor::region_of(const Cell& cell) const {
   for (const auto& t : cell.triangles) {
     std::array<int, 3> triangle;
     for (size_t k = 0; k < 3; ++k)
-      triangle[k] =
-          (*std::lower_bound(index.begin(), index.end(), std::array<int, 2>{t[k], -1}))[1];
+      triangle[k] = (*std::lower_bound(index.begin(), index.end(), std::array<int, 2>{t[k], -1}))[1];
     region.triangles.push_back(triangle);
   }
   if (!cell.holds_samples)
     for (const int n : cell.samples) region.corners.add(network_, n);
   region.isotropic = cell.samples.size();
   region.holds_samples = cell.holds_samples;
-  region.may_add = network_.share.empty() ||
-                   std::all_of(region.corners.node.begin(), region.corners.node.end(),
-                               [&](int n) { return network_.share[at(n)] > 0.3; });
+  region.may_add =
+      network_.share.empty() || std::all_of(region.corners.node.begin(), region.corners.node.end(),
+                                            [&](int n) { return network_.share[at(n)] > 0.3; });
   region.probes = cell.probes;
   set_normal(cell, region.corners.normal);
   if (!network_.planar) {

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include "numerics/bvh.hh"
 
 namespace anisomesh::detail {
 
@@ -91,39 +88,21 @@ void spread_on_circle(RegionCorners& corners, const std::vector<std::array<int, 
 
 }  // namespace
 
-bool lay_out(RegionCorners& corners, const std::vector<std::array<int, 3>>& triangles) {
+void lay_out(RegionCorners& corners, const std::vector<std::array<int, 3>>& triangles) {
   const Projection projection(corners);
   for (size_t i = 0; i < corners.size(); ++i) corners.uv[i] = projection(corners.position[i]);
-  if (triangles.empty() ? is_simple(corners) : is_unfolded(corners, triangles)) return true;
-  // Other triangles may be drawn without folds where these are not.
-  if (!triangles.empty() && corners.loop == corners.size() && is_simple(corners)) return true;
+  if (triangles.empty() ? is_simple(corners) : is_unfolded(corners, triangles)) return;
   spread_on_circle(corners, triangles);
-  return false;
 }
 
 void lay_out(Region& region) {
-  const RegionCorners& c = region.corners;
-  if (lay_out(region.corners, region.triangles)) {
-    const Projection projection(c);
-    for (Probe& probe : region.probes) probe.uv = projection(probe.position);
-    return;
+  lay_out(region.corners, region.triangles);
+  const auto& uv = region.corners.uv;
+  for (Probe& probe : region.probes) {
+    const auto& t = region.triangles[at(probe.triangle)];
+    probe.uv = probe.barycentric[0] * uv[at(t[0])] + probe.barycentric[1] * uv[at(t[1])] +
+               probe.barycentric[2] * uv[at(t[2])];
   }
-  const auto is_beside = [&](Probe& probe) {
-    double least = std::numeric_limits<double>::infinity();
-    bool beside = true;
-    for (const auto& t : region.triangles) {
-      const Vec3d &p = c.position[at(t[0])], &q = c.position[at(t[1])], &r = c.position[at(t[2])];
-      const Vec3d b = closest_barycentric(probe.position, p, q, r);
-      const double squared = (b[0] * p + b[1] * q + b[2] * r - probe.position).sqrnorm();
-      if (squared >= least) continue;
-      least = squared;
-      beside = std::min({b[0], b[1], b[2]}) <= 0;
-      probe.uv = b[0] * c.uv[at(t[0])] + b[1] * c.uv[at(t[1])] + b[2] * c.uv[at(t[2])];
-    }
-    return beside;
-  };
-  region.probes.erase(std::remove_if(region.probes.begin(), region.probes.end(), is_beside),
-                      region.probes.end());
 }
 
 }  // namespace anisomesh::detail

@@ -14,11 +14,9 @@ namespace anisomesh::detail {
 /// triangles over, and otherwise the loop on a circle with the other corners between their neighbours (Tutte
 /// 1963), which is a drawing without folds for any region that is a disc.
 /// \param triangles of the corners, by index; none: the loop alone must not cross itself
-/// \return whether it is the projection
-bool lay_out(RegionCorners& corners, const std::vector<std::array<int, 3>>& triangles);
+void lay_out(RegionCorners& corners, const std::vector<std::array<int, 3>>& triangles);
 
-/// Writes `uv` of the corners and the probes of a region. Where it is not the projection, a probe is drawn in
-/// the triangle that it lies above; one that lies above none is dropped.
+/// Writes `uv` of the corners of a region and of its probes.
 void lay_out(Region& region);
 
 }  // namespace anisomesh::detail

@@ -14,6 +14,8 @@ struct Probe {
   Vec2d uv;
   Vec3d position;
   SurfacePoint point;
+  int triangle = -1;  ///< of the region, and where in it; on the surface, where uv comes from there
+  Vec3d barycentric{0, 0, 0};
 };
 
 struct Region {

@@ -68,7 +68,8 @@ class Walker {
   double length_ = 0;
 };
 
-// Where the plane leaves a face, farthest ahead; not by the side it was entered by or one that holds the start.
+// Where the plane leaves a face, farthest ahead; not by the side it was entered by or one that holds the
+// start.
 Walker::Exit Walker::exit_of(int face, int entered) const {
   Exit best;
   best.ahead = -std::numeric_limits<double>::infinity();

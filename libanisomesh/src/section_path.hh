@@ -17,8 +17,8 @@ struct EdgeCrossing {
 
 /// A surface point by what it lies on: a vertex, an edge or the inside of a face.
 struct Place {
-  int face = -1;    ///< one that holds it
-  int vertex = -1;  ///< the vertex it is, if it is one
+  int face = -1;      ///< one that holds it
+  int vertex = -1;    ///< the vertex it is, if it is one
   EdgeCrossing edge;  ///< the edge it is on, if it is on one
   Vec3d barycentric{0, 0, 0};
   bool on_edge() const { return edge.vertex[0] >= 0; }

@@ -16,14 +16,14 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 class SurfaceCells {
  public:
-  SurfaceCells(const NetworkGraph& network, const SurfaceRef& surface, const MeshEmbedding& embedding)
-      : network_(network), surface_(surface), embedding_(embedding), triangles_(embedding.triangles()) {}
+  SurfaceCells(const NetworkGraph& network, const SurfaceRef& surface, const MeshEmbedding& embedding,
+               bool probes)
+      : network_(network), surface_(surface), probes_(probes), triangles_(embedding.triangles()) {}
 
-  std::vector<Cell> run(bool probes) {
+  std::vector<Cell> run() {
     find_neighbours();
     flood_all();
     for (Cell& cell : cells_) forbid_other_edges(cell);
-    if (probes) gather_probes();
     return std::move(cells_);
   }
 
@@ -33,20 +33,17 @@ class SurfaceCells {
   bool is_disc(const Cell& cell) const;
   void forbid_other_edges(Cell& cell) const;
   Cell cell_of(const std::vector<int>& triangles) const;
-  void gather_probes();
-  double squared_distance(int triangle, const Vec3d& place) const;
-  int descend(int triangle, const Vec3d& place) const;
+  void add_probes(int triangle, Cell& cell) const;
 
   const NetworkGraph& network_;
   const SurfaceRef& surface_;
-  const MeshEmbedding& embedding_;
+  bool probes_;
   std::vector<Triangle> triangles_;
-  std::vector<std::array<int, 3>> beyond_;  // of each triangle across side k to k + 1; -1: an edge of the network
-  std::vector<std::array<int, 3>> across_;  // the same, across edges of the network as well
+  std::vector<std::array<int, 3>>
+      beyond_;  // of each triangle across side k to k + 1; -1: an edge of the network
   std::vector<int> first_neighbour_, neighbour_;  // of each node, over all edges of the triangulation
   std::vector<int> cell_of_triangle_;
   std::vector<Cell> cells_;
-  std::vector<std::vector<int>> triangles_of_region_;
 };
 
 void SurfaceCells::find_neighbours() {
@@ -76,15 +73,30 @@ void SurfaceCells::find_neighbours() {
   for (const auto& e : edges)
     for (size_t k = 0; k < 2; ++k) neighbour_[at(next[at(e[k])]++)] = e[1 - k];
   beyond_.assign(triangles_.size(), {-1, -1, -1});
-  across_ = beyond_;
   for (size_t i = 0; i + 1 < sides.size(); ++i) {
     const Side &x = sides[i], &y = sides[i + 1];
     if (x.low != y.low || x.high != y.high) continue;
-    across_[at(x.triangle)][at(x.k)] = y.triangle;
-    across_[at(y.triangle)][at(y.k)] = x.triangle;
     if (network_.graph.find_edge(x.low, x.high) >= 0) continue;
     beyond_[at(x.triangle)][at(x.k)] = y.triangle;
     beyond_[at(y.triangle)][at(y.k)] = x.triangle;
+  }
+}
+
+// The surface is linear between its vertices, so they are where it is farthest from a polygon.
+void SurfaceCells::add_probes(int triangle, Cell& cell) const {
+  const auto& mesh = surface_.connectivity();
+  for (const auto& pinned : *triangles_[at(triangle)].pinned) {
+    const OpenMesh::VertexHandle v(pinned.vertex);
+    auto h = mesh.halfedge_handle(v);
+    if (mesh.is_boundary(h)) h = mesh.opposite_halfedge_handle(h);
+    Probe probe;
+    probe.position = surface_.point(v);
+    probe.point.face = mesh.face_handle(h);
+    const auto corners = surface_.corners(probe.point.face);
+    for (size_t k = 0; k < 3; ++k) probe.point.barycentric[k] = corners.vertex[k] == v;
+    probe.triangle = static_cast<int>(cell.triangles.size()) - 1;
+    probe.barycentric = pinned.barycentric;
+    cell.probes.push_back(probe);
   }
 }
 
@@ -98,6 +110,7 @@ Cell SurfaceCells::cell_of(const std::vector<int>& triangles) const {
     for (size_t k = 0; k < 3; ++k)
       if (beyond_[at(i)][k] < 0 || triangles.size() == 1) cell.sides.push_back({node[k], node[(k + 1) % 3]});
     inner.insert(inner.end(), node.begin(), node.end());
+    if (probes_) add_probes(i, cell);
   }
   std::sort(inner.begin(), inner.end());
   inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
@@ -171,75 +184,11 @@ void SurfaceCells::flood_all() {
   }
 }
 
-double SurfaceCells::squared_distance(int triangle, const Vec3d& place) const {
-  const auto& t = triangles_[at(triangle)].node;
-  const Vec3d &p = network_.positions[at(t[0])], &q = network_.positions[at(t[1])],
-              &r = network_.positions[at(t[2])];
-  const Vec3d b = closest_barycentric(place, p, q, r);
-  return (b[0] * p + b[1] * q + b[2] * r - place).sqrnorm();
-}
-
-// From triangle to triangle as long as the next is nearer.
-int SurfaceCells::descend(int triangle, const Vec3d& place) const {
-  double least = squared_distance(triangle, place);
-  for (int before = -1; before != triangle;) {
-    before = triangle;
-    for (const int next : across_[at(before)]) {
-      if (next < 0) continue;
-      const double squared = squared_distance(next, place);
-      if (squared >= least) continue;
-      least = squared;
-      triangle = next;
-    }
-  }
-  return triangle;
-}
-
-// The surface is linear between its vertices, so they are where it is farthest from a polygon.
-void SurfaceCells::gather_probes() {
-  int regions = 0;
-  for (const Triangle& t : triangles_) regions = std::max(regions, t.region + 1);
-  std::vector<std::vector<int>> of_region(at(regions));
-  for (size_t t = 0; t < triangles_.size(); ++t)
-    of_region[at(triangles_[t].region)].push_back(static_cast<int>(t));
-  std::vector<std::unique_ptr<TriangleTree>> trees(at(regions));
-  const auto tree_of = [&](size_t region) -> const TriangleTree& {
-    if (!trees[region]) {
-      std::vector<std::array<int, 3>> triangles;
-      for (const int t : of_region[region]) triangles.push_back(triangles_[at(t)].node);
-      std::vector<Vec3d> corners;
-      for (auto& t : triangles)
-        for (int& n : t) {
-          corners.push_back(network_.positions[at(n)]);
-          n = static_cast<int>(corners.size()) - 1;
-        }
-      trees[region] = std::make_unique<TriangleTree>(std::move(corners), std::move(triangles));
-    }
-    return *trees[region];
-  };
-  const auto& mesh = surface_.connectivity();
-  for (const auto f : mesh.faces()) {
-    const auto corners = surface_.corners(f);
-    for (size_t k = 0; k < 3; ++k) {
-      const auto v = corners.vertex[k];
-      if (mesh.is_boundary(v) || mesh.face_handle(mesh.halfedge_handle(v)) != f) continue;
-      const int region = embedding_.region_of_vertex(v.idx());
-      if (region < 0 || region >= regions || of_region[at(region)].empty()) continue;
-      const int found = tree_of(at(region)).closest(surface_.point(v)).triangle;
-      if (found < 0) continue;
-      const int triangle = descend(of_region[at(region)][at(found)], surface_.point(v));
-      Probe probe{{0, 0}, surface_.point(v), {f, {0, 0, 0}}};
-      probe.point.barycentric[k] = 1;
-      cells_[at(cell_of_triangle_[at(triangle)])].probes.push_back(probe);
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<Cell> surface_cells(const NetworkGraph& network, const SurfaceRef& surface,
                                 const MeshEmbedding& embedding, bool probes) {
-  return SurfaceCells(network, surface, embedding).run(probes);
+  return SurfaceCells(network, surface, embedding, probes).run();
 }
 
 }  // namespace anisomesh::detail

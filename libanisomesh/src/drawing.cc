@@ -1,0 +1,74 @@
+#include "drawing.hh"
+
+#include "anisomesh/properties.hh"
+#include "mesh_embedding.hh"
+#include "near_locator.hh"
+#include "plane_cells.hh"
+#include "plane_embedding.hh"
+#include "surface_cells.hh"
+#include "surface_network.hh"
+
+namespace anisomesh::detail {
+
+namespace {
+
+class PlaneDrawing final : public Drawing {
+ public:
+  PlaneDrawing(const SurfaceRef& surface, const SurfaceNormals& normals, const LineNetwork& lines,
+               double corner_angle)
+      : surface_(surface),
+        locator_(surface),
+        network_(arrange_network(surface, locator_, normals, lines, corner_angle)) {}
+  const SurfaceLocator& locator() const override { return locator_; }
+  const NetworkGraph& network() const override { return network_; }
+  std::vector<Cell> cells(NetworkGraph& network, const DecimationOptions& options, bool probes,
+                          DecimationReport& report) const override {
+    PlaneEmbedding embedding(network);
+    report = decimate(network, embedding, options);
+    return plane_cells(network, surface_, locator_, probes);
+  }
+
+ private:
+  const SurfaceRef& surface_;
+  UvLocator locator_;
+  NetworkGraph network_;
+};
+
+class SurfaceDrawing final : public Drawing {
+ public:
+  SurfaceDrawing(const SurfaceRef& surface, const SurfaceNormals& normals, const LineNetwork& lines,
+                 double corner_angle)
+      : surface_(surface), locator_(surface) {
+    const Overlay overlay = overlay_lines(surface, lines, corner_angle);
+    network_ = network_of(surface, normals, overlay);
+    embedding_ = std::make_unique<MeshEmbedding>(surface, overlay, network_);
+    embedding_->coarsen(network_);
+  }
+  const SurfaceLocator& locator() const override { return locator_; }
+  const NetworkGraph& network() const override { return network_; }
+  std::vector<Cell> cells(NetworkGraph& network, const DecimationOptions& options, bool probes,
+                          DecimationReport& report) const override {
+    MeshEmbedding embedding = *embedding_;
+    report = decimate(network, embedding, options);
+    embedding.coarsen(network);
+    embedding.flip(network);
+    return surface_cells(network, surface_, embedding, probes);
+  }
+
+ private:
+  const SurfaceRef& surface_;
+  NearLocator locator_;
+  NetworkGraph network_;
+  std::unique_ptr<MeshEmbedding> embedding_;
+};
+
+}  // namespace
+
+std::unique_ptr<Drawing> make_drawing(const SurfaceRef& surface, const SurfaceNormals& normals,
+                                      const LineNetwork& lines, double corner_angle_degrees) {
+  if (has_property(surface.connectivity(), property::uv))
+    return std::make_unique<PlaneDrawing>(surface, normals, lines, corner_angle_degrees);
+  return std::make_unique<SurfaceDrawing>(surface, normals, lines, corner_angle_degrees);
+}
+
+}  // namespace anisomesh::detail
