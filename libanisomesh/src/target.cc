@@ -143,9 +143,6 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   target.validate();
   trace.validate();
   mesh.validate();
-  if (!is_flattened(surface) && has_property(surface.connectivity(), property::surface_tensor))
-    throw CannotProcess(
-        "polygons are built in the plane only, so far; take one disc, with a single border loop");
 
   TraceOptions options = trace;
   TraceAndMeshReport done;
