@@ -95,6 +95,27 @@ usage)
   [ ! -e x.obj ] || fail "a run that failed wrote its result"
   ;;
 
+any_surface)
+  # closed; of genus 1; two components; an annulus
+  anisomesh-shapes -q ellipsoid --vertices 2000 --irregular -o ellipsoid.off
+  anisomesh-shapes -q torus --vertices 2000 -o torus.off
+  printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n3 0 1 2\n3 3 4 5\n' >two.off
+  printf 'OFF\n6 6 0\n0 0 0\n4 0 0\n0 4 0\n1 1 0\n2 1 0\n1 2 0\n3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n3 2 0 3\n3 2 3 5\n' >annulus.off
+  for name in ellipsoid torus two annulus; do
+    anisomesh-remesh -q $name.off -o $name.obj --epsilon 0.002
+    anisomesh-compare $name.off $name.obj --json $name.json >/dev/null
+    grep -q '"same_topology": *true' $name.json || fail "$name has another topology now"
+    grep -q '"folded_faces": *0' $name.json || fail "$name is folded"
+    anisomesh-estimate -q $name.off -o a.om
+    anisomesh-flatten -q a.om -o b.om
+    anisomesh-trace -q b.om -o c.om --epsilon 0.002
+    anisomesh-mesh -q c.om -o row.obj
+    cmp row.obj $name.obj
+    anisomesh-remesh -q $name.off -o threads.obj --epsilon 0.002 --threads 3
+    cmp threads.obj $name.obj
+  done
+  ;;
+
 bad_input)
   mkdir here
   printf 'old' >here/out.obj
@@ -109,13 +130,14 @@ bad_input)
   anisomesh-shapes -q dome --vertices 100 -o dome.off
   cp dome.off secret.off; chmod 000 secret.off
   expect 3 "secret.off: cannot be read: Permission denied" as_user anisomesh-remesh secret.off -o secret.obj
-  # two components; closed; an annulus
+  # two components; closed; an annulus: no discs
+  in_plane() { expect 4 "$1: " anisomesh-remesh "$1" -o here/out.obj --domain plane; }
   printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n3 0 1 2\n3 3 4 5\n' >two.off
-  try 4 "two.off: " two.off
+  in_plane two.off
   printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >closed.off
-  try 4 "closed.off: " closed.off
+  in_plane closed.off
   printf 'OFF\n6 6 0\n0 0 0\n4 0 0\n0 4 0\n1 1 0\n2 1 0\n1 2 0\n3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n3 2 0 3\n3 2 3 5\n' >annulus.off
-  try 4 "annulus.off: " annulus.off
+  in_plane annulus.off
   # stages out of order
   anisomesh-shapes -q dome --vertices 100 -o dome.om
   for app in flatten trace mesh; do expect 3 "run " "anisomesh-$app" dome.om -o here/out.obj; done
