@@ -8,7 +8,9 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "anisomesh/compare.hh"
 #include "anisomesh/io.hh"
 #include "anisomesh/properties.hh"
 #include "anisomesh/shapes.hh"
@@ -106,6 +108,33 @@ TEST_CASE("epsilon rules where no target is given", "[remesh]") {
   CHECK(report.mesh.faces == coarse.n_faces());
   options.trace.density.epsilon_fraction = 0.0005;
   CHECK(remesh(mesh, options).n_faces() > 2 * coarse.n_faces());
+}
+
+TEST_CASE("99 percent of the samples lie within two epsilons", "[remesh]") {
+  for (const std::string name : {"half-torus", "ellipsoid-cap", "wave", "saddle", "dome", "cylinder"})
+    for (const double epsilon : {0.001, 0.002, 0.004}) {
+      const bool irregular = epsilon == 0.002;
+      auto mesh = make_shape(name, {5000, irregular});
+      RemeshOptions options;
+      options.trace.density.epsilon_fraction = epsilon;
+      auto result = remesh(mesh, options);
+      INFO(name << " at " << epsilon);
+      CHECK(compare(mesh, result, {20000}).p99_fraction <= 2 * epsilon);
+    }
+}
+
+TEST_CASE("a cell tolerance that is given rules over the one recorded", "[remesh]") {
+  auto mesh = make_shape("half-torus", {3000});
+  RemeshOptions options;
+  options.trace.density.epsilon_fraction = 0.002;
+  const auto recorded = remesh(mesh, options);
+  CHECK(mesh.property(require_property(mesh, property::cell_tolerance)) == 2);
+  MeshOptions given;
+  check_same(recorded, build_polygons(mesh, given), 1, 0);
+  given.cell_tolerance = 2;
+  check_same(recorded, build_polygons(mesh, given), 1, 0);
+  given.cell_tolerance = 4;
+  CHECK(build_polygons(mesh, given).n_vertices() < recorded.n_vertices());
 }
 
 TEST_CASE("a target of faces or vertices is met within ten percent", "[remesh]") {

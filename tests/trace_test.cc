@@ -35,8 +35,12 @@ traced::Field straight() { return traced::constant(0.5, 2, M_PI / 2); }
 
 TEST_CASE("in a constant field lines are straight, parallel and at the spacing of equation 6", "[trace]") {
   auto mesh = traced::square(20, straight());
-  trace_lines(mesh, with_epsilon(0.001));
+  const double seed_fraction = GENERATE(0.0, 0.8);
+  TraceOptions options = with_epsilon(0.001);
+  options.seed_fraction = seed_fraction;
+  trace_lines(mesh, options);
   const SurfaceRef surface = mesh;
+  size_t gaps = 0, uneven = 0;
   const double epsilon = 0.001 * surface.diagonal();
   std::vector<double> heights[2];
   for (const Line& line : read_lines(mesh).lines) {
@@ -53,14 +57,17 @@ TEST_CASE("in a constant field lines are straight, parallel and at the spacing o
     std::sort(h.begin(), h.end());
     const double wanted = chord_spacing(across == 1 ? 2 : 0.5, epsilon);
     REQUIRE(h.size() >= static_cast<size_t>(2 / wanted) - 1);
-    for (size_t i = 1; i < h.size(); ++i) CHECK(h[i] - h[i - 1] == Approx(wanted).epsilon(0.25));
+    for (size_t i = 1; i < h.size(); ++i, ++gaps) uneven += std::abs((h[i] - h[i - 1]) / wanted - 1) > 0.25;
   }
+  // The last gap is what is left of the square: one line in it is too many for the spacing, none too few.
+  CHECK(static_cast<double>(uneven) <= (seed_fraction == 0.8 ? 0 : 0.1) * static_cast<double>(gaps));
 }
 
 TEST_CASE("lines on a half torus are its circles", "[trace]") {
   auto mesh = traced::shape("half-torus", 20000);
   TraceOptions options = with_epsilon(0.0015);
-  options.density.max_slope = 0.2;  // graded gently, so that no circle has to end
+  options.density.max_slope = 0.2;  // graded gently, and wide gaps left alone: no circle has to end
+  options.seed_fraction = GENERATE(0.0, 0.8);
   const auto report = trace_lines(mesh, options);
   const SurfaceRef surface = mesh;
   size_t points = 0, off = 0, gaps = 0, uneven = 0;
@@ -86,7 +93,8 @@ TEST_CASE("lines on a half torus are its circles", "[trace]") {
     uneven += std::abs(2 * 0.4 * std::sin((rings[i] - rings[i - 1]) / 2) / wanted - 1) > 0.25;
   CHECK(static_cast<double>(off) <= 0.01 * static_cast<double>(points));
   CHECK(static_cast<double>(uneven) <= 0.1 * static_cast<double>(gaps));
-  CHECK(report.ends[static_cast<int>(LineEnd::border)] == 2 * (report.min_lines + report.max_lines));
+  if (options.seed_fraction == 0.8)
+    CHECK(report.ends[static_cast<int>(LineEnd::border)] == 2 * (report.min_lines + report.max_lines));
 }
 
 TEST_CASE("a cylinder gets as many lines around it as there are along it at any epsilon", "[trace]") {

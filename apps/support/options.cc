@@ -104,7 +104,8 @@ void add_density_options(Command& command, EpsilonFlags& epsilon, TraceOptions& 
       ->type_name("F")
       ->group("Density");
   app.add_option("--seed-fraction", options.seed_fraction,
-                 "No line starts nearer to another than this fraction of the spacing, in [stop fraction, 1]")
+                 "No line starts nearer to another than this fraction of the spacing, in [stop fraction, 1]; "
+                 "0: 0.7 by --epsilon, 0.8 for a target")
       ->type_name("F")
       ->group("Density");
   app.add_option("--min-crossings", options.min_crossings,
@@ -152,8 +153,10 @@ void add_mesh_options(Command& command, MeshOptions& options, const std::string&
          "Lines are straightened as long as their samples stay this near, in epsilons; inf: wherever planar")
       ->type_name("T")
       ->group(heading);
-  app.add_option("--cell-tolerance", options.cell_tolerance,
-                 "Cells farther than this from the surface get samples, in epsilons; inf: none")
+  app.add_option(
+         "--cell-tolerance", options.cell_tolerance,
+         "Cells farther than this from the surface get samples, in epsilons; inf: none; 0: 2 by --epsilon, "
+         "4 for a target")
       ->type_name("T")
       ->group(heading);
   app.add_option("--merge-fraction", options.merge_fraction,

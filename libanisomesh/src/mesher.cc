@@ -39,6 +39,15 @@ double epsilon_of(const OpenMesh::TriConnectivity& mesh) {
   return mesh.property(require_property(mesh, property::epsilon));
 }
 
+/// Leaves no option to be found elsewhere.
+MeshOptions resolved(MeshOptions options, const OpenMesh::TriConnectivity& mesh) {
+  if (options.cell_tolerance == 0)
+    options.cell_tolerance = has_property(mesh, property::cell_tolerance)
+                                 ? mesh.property(require_property(mesh, property::cell_tolerance))
+                                 : 2;
+  return options;
+}
+
 // Polygons that would be folded, concave or without area are given other chances with more samples around
 // them.
 constexpr size_t max_retries = 8;
@@ -88,15 +97,16 @@ void MeshOptions::validate() const {
   if (!(corner_angle_degrees >= 0 && corner_angle_degrees <= 180))
     throw InvalidOption("corner_angle_degrees must be between 0 and 180");
   if (!(chain_tolerance >= 0)) throw InvalidOption("chain_tolerance must not be negative");
-  if (!(cell_tolerance > 0)) throw InvalidOption("cell_tolerance must be above 0");
+  if (!(cell_tolerance >= 0)) throw InvalidOption("cell_tolerance must not be negative");
   if (!(merge_fraction >= 0 && merge_fraction < 1)) throw InvalidOption("merge_fraction must be in [0, 1)");
   if (!(max_bend_degrees > 0 && max_bend_degrees <= 180))
     throw InvalidOption("max_bend_degrees must be above 0 and at most 180");
 }
 
-OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& options, MeshReport* report,
+OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& given, MeshReport* report,
                                   const Progress& progress) {
-  options.validate();
+  given.validate();
+  const MeshOptions options = resolved(given, surface.connectivity());
   MeshReport local;
   Stopwatch total, stopwatch;
   report_progress(progress, 0);

@@ -13,7 +13,7 @@ namespace {
 using Piece = std::vector<int>;
 size_t at(int i) { return static_cast<size_t>(i); }
 
-constexpr size_t max_added = 100;      // per region; a bound, not a rule
+constexpr size_t max_added = 100;      // per region, or as many as it has samples; a bound, not a rule
 constexpr double edge_distance = 0.3;  // of the region's size: nearer to its border a new vertex weighs less
 constexpr int flip_passes = 8;
 
@@ -191,7 +191,8 @@ RegionPolygons RegionMesher::run() {
   if (!region_.holds_samples)
     for (int i = n - static_cast<int>(region_.isotropic); i < n; ++i) triangulation.insert(i);
   if (options_.flip_edges) flip_to_lower_cost(triangulation);
-  while (bounded && region_.may_add && result.added.size() < max_added && add_worst(triangulation, result))
+  const size_t most = std::max(max_added, region_.isotropic);
+  while (bounded && region_.may_add && result.added.size() < most && add_worst(triangulation, result))
     if (options_.flip_edges) flip_to_lower_cost(triangulation);
   result.polygons = pieces_of(triangulation);
   return result;

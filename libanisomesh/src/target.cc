@@ -18,7 +18,9 @@ namespace {
 /// Faces or vertices for each crossing that the density asks for: the median over the nine discs of the
 /// benchmarks at 1,000 and 4,000 faces. Above 1 since spacings may change only slowly from place to place.
 constexpr double kFirstRatio = 1.8;
-constexpr double kMet = 0.1;                      ///< a count within this fraction of the target meets it
+constexpr double kMet = 0.1;  ///< a count within this fraction of the target meets it
+/// A target buys most where lines leave wide gaps alone and samples go where the surface is farthest.
+constexpr double kSeedFraction = 0.8, kCellTolerance = 4;
 constexpr double kLowest = 1e-8, kHighest = 0.5;  ///< epsilon, fraction of the diagonal
 
 /// The number of crossings that the density asks for: one for each rectangle of the two spacings.
@@ -144,7 +146,12 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   trace.validate();
   mesh.validate();
 
+  const double wanted = static_cast<double>(std::max(target.target_faces, target.target_vertices));
   TraceOptions options = trace;
+  MeshOptions polygons = mesh;
+  if (wanted > 0 && options.seed_fraction == 0)
+    options.seed_fraction = std::max(options.stop_fraction, kSeedFraction);
+  if (wanted > 0 && polygons.cell_tolerance == 0) polygons.cell_tolerance = kCellTolerance;
   TraceAndMeshReport done;
   const auto run = [&](double from, double to) {
     const double span = to - from;
@@ -152,7 +159,12 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     done.isotropic = place_isotropic_samples(surface, options,
                                              sub_progress(progress, from + 0.5 * span, from + 0.6 * span));
     done.epsilon_fraction = options.density.epsilon_fraction;
-    return build_polygons(surface, mesh, &done.mesh, sub_progress(progress, from + 0.6 * span, to));
+    if (wanted > 0) {  // for a build_polygons() to come
+      auto& connectivity = surface.connectivity();
+      connectivity.property(provide_property(connectivity, property::cell_tolerance)) =
+          polygons.cell_tolerance;
+    }
+    return build_polygons(surface, polygons, &done.mesh, sub_progress(progress, from + 0.6 * span, to));
   };
   const auto finish = [&](OpenMesh::PolyMesh&& result) {
     report_progress(progress, 1);  // the search may have ended early
@@ -160,7 +172,6 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     if (report) *report = done;
     return std::move(result);
   };
-  const double wanted = static_cast<double>(std::max(target.target_faces, target.target_vertices));
   if (wanted == 0) return finish(run(0, 1));
 
   const CrossingModel model(surface, trace.density);

@@ -40,8 +40,9 @@ struct TraceOptions {
   DensityOptions density;
   double stop_fraction =
       0.5;  ///< a line ends when nearer to one of its kind than this fraction of the spacing; (0, 1)
-  double seed_fraction =
-      0.8;  ///< none starts nearer to one of its kind than this fraction of the spacing; [stop_fraction, 1]
+  /// None starts nearer to one of its kind than this fraction of the spacing; [stop_fraction, 1]. 0: 0.7
+  /// where epsilon is given, so that no gap is much too wide, and 0.8 where it is found for a target
+  double seed_fraction = 0;
   double min_crossings = 1.5;  ///< a shorter line, in spacings of the other kind, is dropped; >= 0
   unsigned seed = 1;           ///< of the random coverage check
   void validate() const;       ///< \throw InvalidOption

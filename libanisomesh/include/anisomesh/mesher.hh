@@ -25,8 +25,9 @@ struct MeshOptions {
   /// lines were traced with; infinite: straighten wherever it is planar, as the paper does; >= 0
   double chain_tolerance = 2.6;
   /// A cell that lies this near to the surface does without its isotropic samples, one that lies farther away
-  /// gets further ones, in the same units; infinite: all samples are used as they are; > 0
-  double cell_tolerance = 4;
+  /// gets further ones, in the same units; infinite: all samples are used as they are; >= 0.
+  /// 0: what the trace stage has recorded, 2 where epsilon was given and 4 where it was found for a target
+  double cell_tolerance = 0;
   bool join_lines = true;        ///< two triangles may become a quad across an edge of a line (max_degree 4)
   double merge_fraction = 0.2;   ///< contract edges shorter than this fraction of those they continue; [0, 1)
   double max_bend_degrees = 60;  ///< split quads that are bent more along a diagonal; (0, 180]
