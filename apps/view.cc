@@ -19,7 +19,8 @@ using namespace anisomesh;
 
 struct Arguments {
   std::vector<std::string> files, tables, layers;
-  std::string page, png, svg, view, up, size = "1200x900";
+  std::string page, png, svg, view, up, at, size = "1200x900";
+  double zoom = 1;
   size_t samples = CompareOptions().samples;
 };
 
@@ -87,6 +88,12 @@ void add_options(CLI::App& app, Arguments& a) {
       ->type_name("DIR")
       ->group("Picture");
   app.add_option("--up", a.up, "What is up, x,y,z or one of the names")->type_name("DIR")->group("Picture");
+  app.add_option("--zoom", a.zoom, "So many times as large as what shows everything, > 0")
+      ->type_name("F")
+      ->group("Picture");
+  app.add_option("--at", a.at, "What is in the middle, x,y,z; by default the middle of everything")
+      ->type_name("POINT")
+      ->group("Picture");
   app.add_option("--samples", a.samples, "Points that a result is measured with, >= 1000")
       ->type_name("N")
       ->group("Measuring");
@@ -97,6 +104,10 @@ view::Scene scene_of(const Arguments& a) {
   scene.layers = a.layers;
   if (!a.view.empty()) scene.eye = view::direction_from("--view", a.view);
   if (!a.up.empty()) scene.up = view::direction_from("--up", a.up);
+  if (!a.at.empty()) scene.middle = view::point_from("--at", a.at);
+  if (!(a.zoom > 0 && a.zoom <= 1e4))
+    throw InvalidOption("--zoom must be above 0 and at most 10000, but is " + std::to_string(a.zoom));
+  scene.zoom = a.zoom;
   return scene;
 }
 

@@ -40,6 +40,13 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+/// Three finite numbers with commas between them, and nothing else.
+bool read_point(const std::string& text, std::array<double, 3>& point) {
+  int used = 0;
+  return std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &point[0], &point[1], &point[2], &used) == 3 &&
+         static_cast<size_t>(used) == text.size() && std::isfinite(std::hypot(point[0], point[1], point[2]));
+}
+
 }  // namespace
 
 bool have_page() { return !page_template().empty(); }
@@ -59,6 +66,8 @@ std::string make_page(const std::string& title, const Frame& frame, const std::v
                  {"tables", Json::array()}, {"layers", scene.layers}};
   if (scene.eye) header["eye"] = *scene.eye;
   if (scene.up) header["up"] = *scene.up;
+  if (scene.middle) header["middle"] = *scene.middle;
+  header["zoom"] = scene.zoom;
   if (scene.picture) header["picture"] = *scene.picture;
   std::string data;
   size_t count = 0;
@@ -92,14 +101,16 @@ std::array<double, 3> direction_from(const std::string& option, const std::strin
   const auto name = names.find(text);
   if (name != names.end()) return name->second;
   std::array<double, 3> eye{};
-  int used = 0;
-  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &eye[0], &eye[1], &eye[2], &used) == 3 &&
-      static_cast<size_t>(used) == text.size()) {
-    const double length = std::hypot(eye[0], eye[1], eye[2]);
-    if (std::isfinite(length) && length > 0) return eye;
-  }
-  throw anisomesh::InvalidOption(
-      option + " takes front, back, left, right, top, bottom, corner or x,y,z, not '" + text + "'");
+  if (!read_point(text, eye) || !(std::hypot(eye[0], eye[1], eye[2]) > 0))
+    throw anisomesh::InvalidOption(
+        option + " takes front, back, left, right, top, bottom, corner or x,y,z, not '" + text + "'");
+  return eye;
+}
+
+std::array<double, 3> point_from(const std::string& option, const std::string& text) {
+  std::array<double, 3> point{};
+  if (!read_point(text, point)) throw anisomesh::InvalidOption(option + " takes x,y,z, not '" + text + "'");
+  return point;
 }
 
 std::array<int, 2> size_from(const std::string& text) {

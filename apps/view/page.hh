@@ -17,6 +17,8 @@ struct Scene {
   std::vector<std::string> layers;           ///< empty: the page chooses from what is there
   std::optional<std::array<double, 3>> eye;  ///< where the eye is, seen from the middle; none: chosen
   std::optional<std::array<double, 3>> up;
+  std::optional<std::array<double, 3>> middle;  ///< the point looked at; none: the middle of everything
+  double zoom = 1;
   std::optional<std::array<int, 2>> picture;  ///< draw a picture of this size only, see picture.hh
 };
 
@@ -39,6 +41,8 @@ std::string make_page(const std::string& title, const Frame& frame, const std::v
 
 /// A direction: front, back, left, right, top, bottom, corner, or x,y,z. \throw anisomesh::InvalidOption
 std::array<double, 3> direction_from(const std::string& option, const std::string& text);
+/// x,y,z. \throw anisomesh::InvalidOption
+std::array<double, 3> point_from(const std::string& option, const std::string& text);
 /// 800x600. \throw anisomesh::InvalidOption
 std::array<int, 2> size_from(const std::string& text);
 

@@ -43,6 +43,15 @@ test('a picture is seen from where it is asked for', () => {
   assert.ok(near(turned, ...boxOf(turned, { footer }).at(0.8, 0.55), 'red'), '--up 1,0,0 turns the square by a quarter');
 });
 
+test('--zoom and --at look closer', () => {
+  must('anisomesh-view', '-q', 'known.om', '--png', 'close.png', '--layer', 'max-lines', '--layer', 'min-lines', '--layer', 'features', '--view', 'front', '--zoom', '4', '--at', '0.55,0.35,0', '--size', '400x400');
+  const picture = readPng('close.png');
+  const [x, y] = [200, 24 + (400 - 24 - 25) / 2]; // between title and legend
+  assert.ok(near(picture, x, y - 100, 'red') && near(picture, x, y + 100, 'red'), 'the max line is in the middle');
+  assert.ok(near(picture, x - 150, y, 'blue') && near(picture, x + 150, y, 'blue'), 'the min line is in the middle');
+  for (let i = 0; i < 400; i += 3) assert.ok(!near(picture, i, y - 60, 'green', 1), 'the feature is out of sight');
+});
+
 test('panes stand side by side in a picture', () => {
   must('anisomesh-view', '-q', 'known.om', 'known-result.om', '--png', 'both.png', '--layer', 'max-lines', '--layer', 'degree', '--layer', 'polygons', '--size', '1000x500', '--view', 'front');
   const picture = readPng('both.png');
@@ -125,6 +134,8 @@ test('what is no mesh, or nowhere to write, is refused', () => {
   refused(2, '--size', ['known.om', '--png', 'out.png', '--size', '20000x100']);
   refused(2, '--view', ['known.om', '--png', 'out.png', '--view', 'sideways']);
   refused(2, '--view', ['known.om', '--png', 'out.png', '--view', '0,0,0']);
+  refused(2, '--at', ['known.om', '--png', 'out.png', '--at', '1,2']);
+  refused(2, '--zoom', ['known.om', '--png', 'out.png', '--zoom', '0']);
   refused(2, 'nothing to write', ['known.om']);
   assert.ok(!existsSync(file('out.html')) && !existsSync(file('out.png')));
 });

@@ -66,16 +66,14 @@ export class View {
   }
 }
 
-/** The side that shows most: an open surface is looked at along its mean normal, a little from the side; a closed one from a corner. */
-export function chooseEye(areaVector) {
-  const n = new Vector3(...areaVector);
-  const eye = n.length() < 0.15 ? new Vector3(0.6, 0.4, 1) : n.normalize();
-  const up = Math.abs(eye.y) < 0.8 ? new Vector3(0, 1, 0) : new Vector3(0, 0, eye.y > 0 ? -1 : 1);
-  if (Math.abs(eye.z) > 0.8) up.set(0, 1, 0);
-  if (n.length() >= 0.15) {
-    const right = new Vector3().crossVectors(up, eye).normalize();
-    eye.applyAxisAngle(right, -0.3).applyAxisAngle(up, 0.3);
-  }
+/** The side that shows most, a little from above and from the side: that which most triangles look to, or a corner where they look
+ *  everywhere. The y axis is up where it can be, else z. */
+export function chooseEye(meanNormal) {
+  const n = new Vector3(...meanNormal);
+  const eye = n.length() < 0.1 ? new Vector3(0, 0, 1) : n.normalize();
+  const up = Math.abs(eye.y) < 0.7 ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
+  const right = new Vector3().crossVectors(up, eye).normalize();
+  eye.applyAxisAngle(right, -0.25).applyAxisAngle(up, 0.4);
   return { eye, up };
 }
 

@@ -1,14 +1,12 @@
-// Principal directions as small crosses whose arms are as long as the curvatures, on vertices spread evenly over the surface.
-import { robustRange } from './colour.js';
-
+// Principal directions as small crosses whose arms are as long as the curvatures (in the plane: stretched as it is), on vertices spread evenly over the surface.
 /** At most about this many crosses: more are a carpet. */
-const wanted = 3500;
+const wanted = 2600;
 
 /** One vertex a cell of a grid over space. */
 function spread(surface) {
   const p = surface.points;
   const n = surface.vertexCount;
-  if (n <= wanted) return { vertices: Array.from({ length: n }, (_, i) => i), cell: 0.6 / Math.sqrt(n) };
+  if (n <= wanted) return { vertices: Array.from({ length: n }, (_, i) => i), cell: 1.1 / Math.sqrt(n) };
   let area = 0;
   const q = surface.corners.space;
   for (let i = 0; i < q.length; i += 9) {
@@ -29,7 +27,7 @@ function spread(surface) {
     const old = nearest.get(key);
     if (!old || distance < old.distance) nearest.set(key, { v, distance });
   }
-  return { vertices: [...nearest.values()].map((x) => x.v), cell: 0.8 * cell };
+  return { vertices: [...nearest.values()].map((x) => x.v), cell: 1.25 * cell };
 }
 
 /** For each vertex one triangle around it, as the index of its first corner. */
@@ -74,7 +72,9 @@ export function crossSegments(surface, domain, source) {
     if (source === 'smoothed') return { v, k: [...a.smoothed_k.subarray(2 * v, 2 * v + 2)], d: [a.smoothed_min, a.smoothed_max].map((g) => [...g.subarray(3 * v, 3 * v + 3)]) };
     return { v, k: [a.k_min[v], a.k_max[v]], d: [a.gamma_min, a.gamma_max].map((g) => [...g.subarray(3 * v, 3 * v + 3)]) };
   });
-  const [, full] = robustRange(Float32Array.from(crosses.flatMap((x) => x.k.map(Math.abs))), { fromZero: true });
+  // Full length at what all but a tenth stay below: a few creases would leave everything else dots.
+  const sizes = Float32Array.from(crosses.flatMap((x) => x.k.map(Math.abs))).sort();
+  const full = sizes[Math.floor(0.9 * (sizes.length - 1))] || 1;
   const segments = new Float32Array(12 * crosses.length);
   const kinds = [];
   crosses.forEach(({ v, k, d }, i) => {
@@ -86,7 +86,8 @@ export function crossSegments(surface, domain, source) {
         arm = carry(arm, surface.corners[home].subarray(t, t + 9), surface.corners[domain].subarray(t, t + 9));
       }
       const length = Math.hypot(...arm) || 1;
-      const half = 0.5 * cell * (0.08 + 0.92 * Math.min(Math.abs(k[kind]) / full, 1));
+      const stretch = domain === 'plane' && a.stretch ? Math.sqrt(a.stretch[v]) : 1;
+      const half = 0.5 * cell * stretch * (0.08 + 0.92 * Math.min(Math.abs(k[kind]) / full, 1));
       for (let c = 0; c < 3; ++c) {
         segments[12 * i + 6 * kind + c] = at[c] - (half * arm[c]) / length;
         segments[12 * i + 6 * kind + 3 + c] = at[c] + (half * arm[c]) / length;

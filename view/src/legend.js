@@ -27,6 +27,7 @@ function swatches(stage, pane) {
         const kind = layer.name === 'min-lines' ? 0 : 1;
         text = count(Array.from({ length: surface.lineCount }, (_, k) => k).filter((k) => surface.line(k).kind === kind).length, what);
       }
+      if (layer.name === 'border') text = count(surface.arrays.border.length / 3, 'border edges');
       if (layer.name === 'features') text = count(surface.arrays.features.length / 3, 'feature edges');
       if (layer.name === 'edge-kinds') text = count(result.arrays.edge_kind.filter((k) => k === i).length, `${what} edges`);
       if (layer.name === 'origins') text = count(result.arrays.origin.filter((o) => o === i).length, what);

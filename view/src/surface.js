@@ -109,19 +109,19 @@ export class Surface {
     return out;
   }
 
-  /** The mean of the triangles' normals by area: where most of an open surface looks to. Zero for a closed one. */
-  areaVector() {
+  /** The mean of the triangles' unit normals, each counting alike: where the side with most detail looks to. About zero for a closed
+   *  surface that is meshed evenly. */
+  meanNormal() {
     const sum = [0, 0, 0];
-    let area = 0;
     const p = this.corners.space;
     for (let i = 0; i < p.length; i += 9) {
       const a = [p[i + 3] - p[i], p[i + 4] - p[i + 1], p[i + 5] - p[i + 2]];
       const b = [p[i + 6] - p[i], p[i + 7] - p[i + 1], p[i + 8] - p[i + 2]];
       const n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-      for (let c = 0; c < 3; ++c) sum[c] += n[c];
-      area += Math.hypot(...n);
+      const length = Math.hypot(...n) || 1;
+      for (let c = 0; c < 3; ++c) sum[c] += n[c] / length;
     }
-    return sum.map((x) => x / (area || 1));
+    return sum.map((x) => x / this.faceCount);
   }
 
   /** A scalar field's values at the vertices, once computed. */

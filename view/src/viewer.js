@@ -57,10 +57,12 @@ export class Viewer {
     const { stage, header } = this;
     const aspect = Math.min(...panes.map((p) => p.inner.width / p.inner.height));
     const points = stage.surface?.points ?? stage.result.points;
-    const chosen = chooseEye(stage.surface?.areaVector() ?? [0, 0, 0]);
+    const chosen = chooseEye(stage.surface?.meanNormal() ?? [0, 0, 0]);
     const eye = header.eye ? new Vector3(...header.eye) : chosen.eye;
     const up = header.up ? new Vector3(...header.up) : header.eye ? upFor(eye) : chosen.up;
     this.space.fit(points, aspect, eye, up);
+    this.space.halfHeight /= header.zoom;
+    if (header.middle) this.space.middle.set(...header.middle.map((x, c) => (x - header.centre[c]) / header.scale));
     if (stage.surface?.planePoints) this.plane.fit(stage.surface.planePoints, aspect);
   }
 
