@@ -1,8 +1,9 @@
 // Pictures and drawings from the command line, and what is said where there can be none.
 import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
 import { chmodSync, existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { before, test } from 'node:test';
-import { boxOf, file, hues, makeKnown, must, near, readPng, run } from './support.mjs';
+import { boxOf, file, hues, makeKnown, must, near, readPng, run, work } from './support.mjs';
 
 const footer = 27; // of a picture whose legend is one row
 
@@ -154,4 +155,15 @@ test('a Chromium that draws nothing is said to have drawn nothing', () => {
   chmodSync(file('broken'), 0o755);
   refused(4, ['drew no picture', 'no screen, no card'], ['known.om', '--png', 'out.png'], { ANISOMESH_CHROMIUM: file('broken') });
   assert.ok(!existsSync(file('out.png')));
+});
+
+test('a build without the page says what to install, and draws drawings', () => {
+  for (const output of [['-o', 'none.html'], ['--png', 'none.png']]) {
+    const { status, stderr } = spawnSync(process.env.ANISOMESH_WITHOUT_PAGE, ['known.om', ...output], { cwd: work, encoding: 'utf8' });
+    assert.equal(status, 4, stderr);
+    assert.match(stderr, /no viewer page; install npm and configure with -D ANISOMESH_VIEW=ON/);
+  }
+  const { status, stderr } = spawnSync(process.env.ANISOMESH_WITHOUT_PAGE, ['-q', 'known.om', '--svg', 'without.svg'], { cwd: work, encoding: 'utf8' });
+  assert.equal(status, 0, stderr);
+  assert.ok(readFileSync(file('without.svg'), 'utf8').includes('max-lines'));
 });
