@@ -1,6 +1,7 @@
 // What tracing, seeding and spacing ask of the surface they work on, and nothing more.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -85,11 +86,13 @@ class Domain {
   /// The nearest umbilic within a third of the spacing of a kind, if there is one.
   virtual NearUmbilic umbilic_near(LineKind kind, const SurfacePoint& at) const = 0;
 
-  /// The faces that a disc reaches without crossing a border or feature.
-  virtual std::vector<int> faces_within(const SurfacePoint& at, double radius) const = 0;
+  /// Marks the faces that a disc reaches without crossing a border or feature; more do no harm.
+  virtual void mark_within(const SurfacePoint& at, double radius, std::vector<char>& marks) const = 0;
   virtual size_t n_faces() const = 0;
   virtual double area(OpenMesh::FaceHandle face) const = 0;
-  virtual std::unique_ptr<LineIndex> make_index() const = 0;
+  /// \param reach how far a line or sample at a place needs to be seen, at least
+  virtual std::unique_ptr<LineIndex> make_index(
+      const std::function<double(const SurfacePoint&)>& reach) const = 0;
 };
 
 }  // namespace anisomesh::detail

@@ -14,6 +14,8 @@ namespace anisomesh {
 namespace {
 
 constexpr double kNearestSample = 0.75;  // spacings between samples, and from samples to fences and lines
+constexpr double kFarthest = 1.5;        // spacings that a sample looks around itself
+constexpr double kReach = 2.5;           // the same as seen from where they lie denser
 constexpr double kNearestLine = 0.4;     // spacings from an umbilic to a line that does not end there
 constexpr double kLineEnd = 1e-3;        // spacings: the line ends at the umbilic
 
@@ -30,7 +32,10 @@ struct Candidate {
 class SamplePlacement {
  public:
   SamplePlacement(const detail::Domain& domain, unsigned seed)
-      : domain_(domain), index_(domain.make_index()), sampler_(domain, seed) {}
+      : domain_(domain),
+        index_(domain.make_index(
+            [&domain](const SurfacePoint& at) { return kReach * domain.isotropic_spacing(at); })),
+        sampler_(domain, seed) {}
 
   std::vector<Candidate> umbilic_candidates(const LineNetwork& network) const;
   std::vector<Candidate> random_candidates();
@@ -53,9 +58,7 @@ void SamplePlacement::enter_lines(const LineNetwork& network,
   std::vector<char> near(domain_.n_faces(), 0);
   for (const auto* list : candidates)
     for (const Candidate& candidate : *list)
-      for (const int f :
-           domain_.faces_within(candidate.point, 1.5 * domain_.isotropic_spacing(candidate.point)))
-        near[static_cast<size_t>(f)] = 1;
+      domain_.mark_within(candidate.point, kFarthest * domain_.isotropic_spacing(candidate.point), near);
   for (const Line& line : network.lines) enter(line, near);
 }
 
@@ -87,8 +90,8 @@ void SamplePlacement::enter(const Line& line, const std::vector<char>& near) {
 double SamplePlacement::misfit(const SurfacePoint& at, bool umbilic) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double wanted = domain_.isotropic_spacing(at);
-  const auto near = index_->nearest(at, 1.5 * wanted);
-  double actual = std::min(1.5 * wanted, near.fence.distance);
+  const auto near = index_->nearest(at, kFarthest * wanted);
+  double actual = std::min(kFarthest * wanted, near.fence.distance);
   if (umbilic && near.line.distance < kNearestSample * wanted) {
     if (near.line.distance < kNearestLine * wanted && near.line.distance > kLineEnd * wanted) return kNever;
   } else {

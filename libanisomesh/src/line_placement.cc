@@ -10,7 +10,8 @@ namespace anisomesh::detail {
 namespace {
 
 constexpr double kOffFence =
-    0.02;  // of the distance searched: a line that starts nearer has no room to begin
+    0.02;                       // of the distance searched: a line that starts nearer has no room to begin
+constexpr double kReach = 2.5;  // spacings: seeds look about one around themselves, of a place less dense
 constexpr double kSeedEvery = 0.5;  // spacings along a line between the seeds beside it
 constexpr double kParallel = 0.94;  // cosine: a fence this parallel to a line counts as a line
 
@@ -41,7 +42,8 @@ class Placement {
         kind_(kind),
         options_(options),
         going_on_(going_on),
-        index_(domain.make_index()),
+        index_(domain.make_index(
+            [&domain, kind](const SurfacePoint& at) { return kReach * domain.spacing(kind, at); })),
         tracer_(domain, *index_, kind, options),
         sampler_(domain, options.seed) {}
 

@@ -85,6 +85,10 @@ void PlaneDomain::make_nodes(const SurfaceRef& surface, const PlaneInput& input)
   for (size_t i = 0; i < nodes_.size(); ++i) nodes_[i].tensor /= count[i];
 }
 
+void PlaneDomain::mark_within(const SurfacePoint& at, double radius, std::vector<char>& marks) const {
+  for (const int f : faces_within(at, radius)) marks[static_cast<size_t>(f)] = 1;
+}
+
 std::vector<int> PlaneDomain::faces_within(const SurfacePoint& at, double radius) const {
   const Vec2d centre = plane_position(at);
   const double plane_radius = radius * scale(at);
@@ -258,7 +262,8 @@ class PlaneIndex final : public LineIndex {
 
 }  // namespace
 
-std::unique_ptr<LineIndex> PlaneDomain::make_index() const {
+std::unique_ptr<LineIndex> PlaneDomain::make_index(
+    const std::function<double(const SurfacePoint&)>& /*reach*/) const {
   std::vector<Proximity::Fence> fences;
   for (const Face& f : faces_)
     for (int i = 0; i < 3; ++i) {

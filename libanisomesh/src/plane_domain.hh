@@ -30,9 +30,10 @@ class PlaneDomain final : public FaceDomain {
   Reach walk(const SurfacePoint& from, const Vec2d& vector) const override;
   double turning_length(const SurfacePoint& at) const override;
   std::vector<Vec2d> separatrices(const UmbilicPoint& umbilic, LineKind kind) const override;
-  std::vector<int> faces_within(const SurfacePoint& at, double radius) const override;
+  void mark_within(const SurfacePoint& at, double radius, std::vector<char>& marks) const override;
   double area(OpenMesh::FaceHandle face) const override;
-  std::unique_ptr<LineIndex> make_index() const override;
+  std::unique_ptr<LineIndex> make_index(
+      const std::function<double(const SurfacePoint&)>& reach) const override;
 
   Vec2d plane_position(const SurfacePoint& at) const;
   /// Length in the plane over length on the surface.
@@ -48,6 +49,7 @@ class PlaneDomain final : public FaceDomain {
   };
 
   void make_nodes(const SurfaceRef& surface, const PlaneInput& input);
+  std::vector<int> faces_within(const SurfacePoint& at, double radius) const;
   LinearField field(const Face& face) const;
   Vec3d barycentric(const Face& face, const Vec2d& point) const;
   double distance(const SurfacePoint& at, const Vec2d& place) const override;

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 
 #include "face_domain.hh"
 #include "linear_field.hh"
+#include "surface_distance.hh"
 #include "surface_flood.hh"
 
 namespace anisomesh::detail {
@@ -32,19 +32,20 @@ class SurfaceDomain final : public FaceDomain {
   Reach walk(const SurfacePoint& from, const Vec2d& vector) const override;
   double turning_length(const SurfacePoint& at) const override;
   std::vector<Vec2d> separatrices(const UmbilicPoint& umbilic, LineKind kind) const override;
-  std::vector<int> faces_within(const SurfacePoint& at, double radius) const override;
+  void mark_within(const SurfacePoint& at, double radius, std::vector<char>& marks) const override;
   double area(OpenMesh::FaceHandle face) const override { return unfolded_.area(face.idx()); }
-  std::unique_ptr<LineIndex> make_index() const override;
+  std::unique_ptr<LineIndex> make_index(
+      const std::function<double(const SurfacePoint&)>& reach) const override;
 
  private:
+  void measure_fences();
   LinearField field(OpenMesh::FaceHandle face) const;
   double distance(const SurfacePoint& at, const Vec2d& place) const override;
 
   const SurfaceRef& surface_;
   UnfoldedFaces unfolded_;
   std::vector<std::array<Vec3d, 3>> corner_tensors_;
-  mutable SurfaceFlood flood_;
-  mutable std::mutex flood_in_use_;
+  std::unique_ptr<SurfaceDistance> fences_;  // none where there are no fences
 };
 
 }  // namespace anisomesh::detail

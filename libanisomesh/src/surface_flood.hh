@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "unfolded_faces.hh"
@@ -17,35 +18,44 @@ class SurfaceFlood {
 
   struct Visit {
     int face = -1;
-    Vec2d place{0, 0};  ///< the point that all is seen from, in the frame of the face
-    Vec2d turn{1, 0};   ///< takes vectors of the frame of the start to that of the face
-    double distance2 = 0;
-    int parent = -1;   ///< into visits()
-    int entered = -1;  ///< the corner opposite the edge it was reached by
+    Vec2d place{0, 0};    ///< the point that all is seen from, in the frame of the face
+    Vec2d turn{1, 0};     ///< takes vectors of the frame of the start to that of the face
+    double distance = 0;  ///< to the edge that the face was reached by
+    int parent = -1;      ///< into visits()
+    int entered = -1;     ///< the corner opposite that edge
   };
 
-  /// \param visit called with each Visit, gives the square of the radius that is still of interest
+  /// \param visit called with each Visit, gives the radius that is still of interest
   template <class OnVisit>
-  void run(const SurfacePoint& start, double radius2, OnVisit&& visit) {
+  void run(const SurfacePoint& start, double radius, OnVisit&& visit) {
+    search(start, radius, visit, [](int) { return 0.0; });
+  }
+
+  /// The same for the sake of something whose distance is known from below: faces come in the order of their
+  /// distance with what lies beyond at least, and those where the sum is too large never. \param beyond the
+  /// bound for a face
+  template <class OnVisit, class Beyond>
+  void search(const SurfacePoint& start, double radius, OnVisit&& visit, Beyond&& beyond) {
     if (++run_ == 0) {
       std::fill(seen_.begin(), seen_.end(), 0);
       run_ = 1;
     }
     visits_.clear();
     open_.clear();
-    take({start.face.idx(), faces_.place(start), {1, 0}, 0, -1, -1}, radius2, visit);
+    if (!(beyond(start.face.idx()) < radius)) return;
+    take({start.face.idx(), faces_.place(start), {1, 0}, 0, -1, -1}, radius, visit, beyond);
     while (!open_.empty()) {
       std::pop_heap(open_.begin(), open_.end());
       const Open next = open_.back();
       open_.pop_back();
-      if (!(next.distance2 < radius2)) break;
+      if (!(next.key < radius)) break;
       const Visit& from = visits_[static_cast<size_t>(next.visit)];
       const int face = faces_.across(from.face, next.edge);
       if (seen_[static_cast<size_t>(face)] == run_) continue;
       take({face, faces_.carried(from.face, next.edge, from.place),
-            turned_by(from.turn, faces_.turn(from.face, next.edge)), next.distance2, next.visit,
+            turned_by(from.turn, faces_.turn(from.face, next.edge)), next.distance, next.visit,
             faces_.twin(from.face, next.edge)},
-           radius2, visit);
+           radius, visit, beyond);
     }
   }
 
@@ -53,27 +63,28 @@ class SurfaceFlood {
 
  private:
   struct Open {
-    double distance2 = 0;
+    double key = 0, distance = 0;
     int visit = 0, edge = 0;
     bool operator<(const Open& o) const {  // a heap has the largest on top
-      return distance2 != o.distance2 ? distance2 > o.distance2 : visit > o.visit;
+      return key != o.key ? key > o.key : visit > o.visit;
     }
   };
 
-  template <class OnVisit>
-  void take(const Visit& visit, double& radius2, OnVisit&& on_visit) {
+  template <class OnVisit, class Beyond>
+  void take(const Visit& visit, double& radius, OnVisit&& on_visit, Beyond&& beyond) {
     seen_[static_cast<size_t>(visit.face)] = run_;
     visits_.push_back(visit);
-    radius2 = on_visit(visits_.back());
+    radius = on_visit(visits_.back());
     for (int i = 0; i < 3; ++i) {
       if (i == visit.entered) continue;
       const int next = faces_.across(visit.face, i);
       if (next < 0 || seen_[static_cast<size_t>(next)] == run_) continue;
       double unused = 0;
-      const double distance2 =
-          std::max(visit.distance2, faces_.edge_distance2(visit.face, i, visit.place, unused));
-      if (!(distance2 < radius2)) continue;
-      open_.push_back({distance2, static_cast<int>(visits_.size()) - 1, i});
+      const double distance =
+          std::max(visit.distance, std::sqrt(faces_.edge_distance2(visit.face, i, visit.place, unused)));
+      const double key = distance + beyond(next);
+      if (!(key < radius)) continue;
+      open_.push_back({key, distance, static_cast<int>(visits_.size()) - 1, i});
       std::push_heap(open_.begin(), open_.end());
     }
   }

@@ -1,6 +1,7 @@
 // Lines of one kind on a surface, kept in the faces they cross, and the nearest of them along the surface.
 #pragma once
 
+#include "surface_distance.hh"
 #include "surface_path.hh"
 
 namespace anisomesh::detail {
@@ -9,8 +10,17 @@ namespace anisomesh::detail {
 /// far. [Marinov and Kobbelt 2004, section 4, keep samples in the faces; here the segments themselves]
 class SurfaceIndex final : public LineIndex {
  public:
-  SurfaceIndex(const SurfaceRef& surface, const UnfoldedFaces& faces)
-      : faces_(faces), paths_(surface, faces), flood_(faces), first_(faces.size(), -1) {}
+  /// \param fences bounds of the distance to them; may be none \param reach how far what is entered at a
+  /// place is seen
+  SurfaceIndex(const SurfaceRef& surface, const UnfoldedFaces& faces, const SurfaceDistance* fences,
+               std::function<double(const SurfacePoint&)> reach)
+      : faces_(faces),
+        paths_(surface, faces),
+        flood_(faces),
+        first_(faces.size(), -1),
+        distance_(faces),
+        fences_(fences),
+        reach_(std::move(reach)) {}
 
   Neighbourhood nearest(const SurfacePoint& at, double bound, int own, double from, double to) override;
   void enter(int line, const std::vector<ArcPoint>& points) override;
@@ -23,13 +33,22 @@ class SurfaceIndex final : public LineIndex {
     int line = -1;
     int next = -1;  // in the same face
   };
-  void add(int face, const Piece& piece);
+  void add(int face, const Piece& piece, double reach);
+  void spread_pending();
+  double nearest_line(const SurfacePoint& at, double bound, int own, double from, double to, Neighbour& best);
+  void nearest_fence(const SurfacePoint& at, double bound, Neighbour& best);
 
   const UnfoldedFaces& faces_;
   SurfacePaths paths_;
   SurfaceFlood flood_;
   std::vector<int> first_;  // of each face, into pieces_
   std::vector<Piece> pieces_;
+  SurfaceDistance distance_;  // to the lines, but for those pending
+  std::vector<SurfaceDistance::Source> pending_;
+  int pending_line_ = -1;
+  double pending_arc_ = 0;
+  const SurfaceDistance* fences_;
+  std::function<double(const SurfacePoint&)> reach_;
 };
 
 }  // namespace anisomesh::detail

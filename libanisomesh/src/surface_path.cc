@@ -21,9 +21,9 @@ bool SurfacePaths::reach(const SurfacePoint& from, const SurfacePoint& to) {
     bound = std::max(
         bound, (faces_.corner(from.face.idx(), i) - faces_.corner(from.face.idx(), (i + 1) % 3)).norm());
   int found = -1;
-  flood_.run(from, bound * bound, [&](const SurfaceFlood::Visit& visit) {
+  flood_.run(from, bound, [&](const SurfaceFlood::Visit& visit) {
     if (found < 0 && visit.face == to.face.idx()) found = static_cast<int>(flood_.visits().size()) - 1;
-    return found < 0 ? bound * bound : 0.0;
+    return found < 0 ? bound : 0.0;
   });
   if (found < 0) return false;
   strip_.clear();
