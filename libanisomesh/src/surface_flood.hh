@@ -31,9 +31,8 @@ class SurfaceFlood {
     search(start, radius, visit, [](int) { return 0.0; });
   }
 
-  /// The same for the sake of something whose distance is known from below: faces come in the order of their
-  /// distance with what lies beyond at least, and those where the sum is too large never. \param beyond the
-  /// bound for a face
+  /// The same for the sake of something whose distance is known from below: leaves out the faces from which
+  /// it is too far. \param beyond the bound for a face
   template <class OnVisit, class Beyond>
   void search(const SurfacePoint& start, double radius, OnVisit&& visit, Beyond&& beyond) {
     if (++run_ == 0) {
@@ -48,7 +47,7 @@ class SurfaceFlood {
       std::pop_heap(open_.begin(), open_.end());
       const Open next = open_.back();
       open_.pop_back();
-      if (!(next.key < radius)) break;
+      if (!(next.distance < radius)) break;
       const Visit& from = visits_[static_cast<size_t>(next.visit)];
       const int face = faces_.across(from.face, next.edge);
       if (seen_[static_cast<size_t>(face)] == run_) continue;
@@ -63,10 +62,10 @@ class SurfaceFlood {
 
  private:
   struct Open {
-    double key = 0, distance = 0;
+    double distance = 0;
     int visit = 0, edge = 0;
     bool operator<(const Open& o) const {  // a heap has the largest on top
-      return key != o.key ? key > o.key : visit > o.visit;
+      return distance != o.distance ? distance > o.distance : visit > o.visit;
     }
   };
 
@@ -82,9 +81,8 @@ class SurfaceFlood {
       double unused = 0;
       const double distance =
           std::max(visit.distance, std::sqrt(faces_.edge_distance2(visit.face, i, visit.place, unused)));
-      const double key = distance + beyond(next);
-      if (!(key < radius)) continue;
-      open_.push_back({key, distance, static_cast<int>(visits_.size()) - 1, i});
+      if (!(distance + beyond(next) < radius)) continue;
+      open_.push_back({distance, static_cast<int>(visits_.size()) - 1, i});
       std::push_heap(open_.begin(), open_.end());
     }
   }

@@ -39,11 +39,22 @@ void SurfaceIndex::add(int face, const Piece& piece, double reach) {
 void SurfaceIndex::spread_pending() {
   if (!pending_.empty()) distance_.add(pending_);
   pending_.clear();
+  pending_points_.clear();
   pending_line_ = -1;
 }
 
+// Whether a piece that is not spread yet, and is not to be left out, may be that near.
+bool SurfaceIndex::pending_near(const SurfacePoint& at, double bound, double from, double to) const {
+  if (pending_points_.empty()) return false;
+  const Vec3d here = position(surface_, at);
+  for (const Pending& p : pending_points_)
+    if ((p.arc < from || p.arc > to) && (p.position - here).norm() < bound + p.length) return true;
+  return false;
+}
+
+template <class Beyond>
 double SurfaceIndex::nearest_line(const SurfacePoint& at, double bound, int own, double from, double to,
-                                  Neighbour& best) {
+                                  Neighbour& best, const Beyond& beyond) {
   double nearest = bound;
   flood_.search(
       at, bound,
@@ -65,7 +76,7 @@ double SurfaceIndex::nearest_line(const SurfacePoint& at, double bound, int own,
         }
         return nearest;
       },
-      distance_);
+      beyond);
   return nearest;
 }
 
@@ -91,7 +102,9 @@ void SurfaceIndex::nearest_fence(const SurfacePoint& at, double bound, Neighbour
 Neighbourhood SurfaceIndex::nearest(const SurfacePoint& at, double bound, int own, double from, double to) {
   if (own < 0 || own != pending_line_) spread_pending();
   Neighbourhood best;
-  const double line = nearest_line(at, bound, own, from, to, best.line);
+  const double line = pending_near(at, bound, from, to)
+                          ? nearest_line(at, bound, own, from, to, best.line, [](int) { return 0.0; })
+                          : nearest_line(at, bound, own, from, to, best.line, distance_);
   // Fences are searched only as far as the nearest line.
   if (fences_) nearest_fence(at, line, best.fence);
   return best;
@@ -109,6 +122,8 @@ void SurfaceIndex::enter(int line, const std::vector<ArcPoint>& points) {
     const auto& way = paths_.find(points[i - 1].point, points[i].point);
     double length = 0, gone = 0;
     for (const PathPiece& piece : way) length += (piece.to - piece.from).norm();
+    for (const ArcPoint& end : {points[i - 1], points[i]})
+      pending_points_.push_back({position(surface_, end.point), end.arc, length});
     const double span = points[i].arc - points[i - 1].arc, reach = reach_(points[i].point);
     for (const PathPiece& piece : way) {
       const double before = length > 0 ? gone / length : 0;

@@ -14,7 +14,8 @@ class SurfaceIndex final : public LineIndex {
   /// place is seen
   SurfaceIndex(const SurfaceRef& surface, const UnfoldedFaces& faces, const SurfaceDistance* fences,
                std::function<double(const SurfacePoint&)> reach)
-      : faces_(faces),
+      : surface_(surface),
+        faces_(faces),
         paths_(surface, faces),
         flood_(faces),
         first_(faces.size(), -1),
@@ -33,11 +34,20 @@ class SurfaceIndex final : public LineIndex {
     int line = -1;
     int next = -1;  // in the same face
   };
+  // An end of a segment that is in its faces, but not spread yet.
+  struct Pending {
+    Vec3d position{0, 0, 0};
+    double arc = 0, length = 0;
+  };
   void add(int face, const Piece& piece, double reach);
   void spread_pending();
-  double nearest_line(const SurfacePoint& at, double bound, int own, double from, double to, Neighbour& best);
+  bool pending_near(const SurfacePoint& at, double bound, double from, double to) const;
+  template <class Beyond>
+  double nearest_line(const SurfacePoint& at, double bound, int own, double from, double to, Neighbour& best,
+                      const Beyond& beyond);
   void nearest_fence(const SurfacePoint& at, double bound, Neighbour& best);
 
+  const SurfaceRef& surface_;
   const UnfoldedFaces& faces_;
   SurfacePaths paths_;
   SurfaceFlood flood_;
@@ -45,6 +55,7 @@ class SurfaceIndex final : public LineIndex {
   std::vector<Piece> pieces_;
   SurfaceDistance distance_;  // to the lines, but for those pending
   std::vector<SurfaceDistance::Source> pending_;
+  std::vector<Pending> pending_points_;
   int pending_line_ = -1;
   double pending_arc_ = 0;
   const SurfaceDistance* fences_;
