@@ -32,9 +32,12 @@ class SurfaceFlood {
   }
 
   /// The same for the sake of something whose distance is known from below: leaves out the faces from which
-  /// it is too far. \param beyond the bound for a face
+  /// it is too far. \param beyond the bound for a face \param straight visits first what seems to be on the
+  /// way there; a face may then be reached by a way that is not the shortest
   template <class OnVisit, class Beyond>
-  void search(const SurfacePoint& start, double radius, OnVisit&& visit, Beyond&& beyond) {
+  void search(const SurfacePoint& start, double radius, OnVisit&& visit, Beyond&& beyond,
+              bool straight = false) {
+    straight_ = straight;
     if (++run_ == 0) {
       std::fill(seen_.begin(), seen_.end(), 0);
       run_ = 1;
@@ -47,7 +50,7 @@ class SurfaceFlood {
       std::pop_heap(open_.begin(), open_.end());
       const Open next = open_.back();
       open_.pop_back();
-      if (!(next.distance < radius)) break;
+      if (!(next.key < radius)) break;
       const Visit& from = visits_[static_cast<size_t>(next.visit)];
       const int face = faces_.across(from.face, next.edge);
       if (seen_[static_cast<size_t>(face)] == run_) continue;
@@ -62,10 +65,10 @@ class SurfaceFlood {
 
  private:
   struct Open {
-    double distance = 0;
+    double key = 0, distance = 0;
     int visit = 0, edge = 0;
     bool operator<(const Open& o) const {  // a heap has the largest on top
-      return distance != o.distance ? distance > o.distance : visit > o.visit;
+      return key != o.key ? key > o.key : visit > o.visit;
     }
   };
 
@@ -81,8 +84,9 @@ class SurfaceFlood {
       double unused = 0;
       const double distance =
           std::max(visit.distance, std::sqrt(faces_.edge_distance2(visit.face, i, visit.place, unused)));
-      if (!(distance + beyond(next) < radius)) continue;
-      open_.push_back({distance, static_cast<int>(visits_.size()) - 1, i});
+      const double at_least = distance + beyond(next);
+      if (!(at_least < radius)) continue;
+      open_.push_back({straight_ ? at_least : distance, distance, static_cast<int>(visits_.size()) - 1, i});
       std::push_heap(open_.begin(), open_.end());
     }
   }
@@ -90,6 +94,7 @@ class SurfaceFlood {
   const UnfoldedFaces& faces_;
   std::vector<unsigned> seen_;
   unsigned run_ = 0;
+  bool straight_ = false;
   std::vector<Visit> visits_;
   std::vector<Open> open_;
 };

@@ -96,7 +96,7 @@ void SurfaceIndex::nearest_fence(const SurfacePoint& at, double bound, Neighbour
         }
         return nearest;
       },
-      *fences_);
+      *fences_, true);
 }
 
 Neighbourhood SurfaceIndex::nearest(const SurfacePoint& at, double bound, int own, double from, double to) {
