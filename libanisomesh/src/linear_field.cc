@@ -71,6 +71,7 @@ std::vector<Vec2d> separatrix_directions(const LinearField& field, int index, Li
   // A wedge with three rays has them on one side: the middle one stands for them.
   if (index > 0 && angles.size() == 3) angles = {middle_of_three(angles)};
   std::vector<Vec2d> directions;
+  directions.reserve(angles.size());
   for (const double angle : angles) directions.emplace_back(std::cos(angle), std::sin(angle));
   return directions;
 }
