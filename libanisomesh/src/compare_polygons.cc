@@ -83,8 +83,7 @@ std::vector<Triangle> triangulate_polygon(const std::vector<Vec3d>& corners, con
   for (size_t i = 0; i < ring.size(); ++i) ring[i] = static_cast<int>(i);
   std::vector<Triangle> triangles;
   const double sign = diagonal == FaceDiagonal::shorter ? 1 : -1;
-  while (ring.size() > 3) {
-    const size_t n = ring.size();
+  for (size_t n = ring.size(); n > 3; n = ring.size()) {
     size_t best = n, fallback = 0;
     double best_length = std::numeric_limits<double>::infinity(), fallback_length = best_length;
     for (size_t i = 0; i < n; ++i) {

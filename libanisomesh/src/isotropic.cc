@@ -153,7 +153,10 @@ std::vector<Candidate> SamplePlacement::random_candidates() {
     const SurfacePoint centre{face, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
     if (!domain_.isotropic(centre)) continue;
     const double spacing = domain_.isotropic_spacing(centre);
-    for (share += kCandidates * domain_.area(face) / (spacing * spacing); share >= 1; --share) {
+    share += kCandidates * domain_.area(face) / (spacing * spacing);
+    const double whole = std::floor(share);
+    share -= whole;
+    for (size_t i = 0; i < static_cast<size_t>(whole); ++i) {
       const SurfacePoint at = sampler_.in_face(face);
       if (domain_.isotropic(at)) candidates.push_back({0, candidates.size(), at});
     }

@@ -57,19 +57,21 @@ PlaneDomain::PlaneDomain(const SurfaceRef& surface, const PlaneInput& input, con
 void PlaneDomain::make_nodes(const SurfaceRef& surface, const PlaneInput& input) {
   auto& mesh = surface.connectivity();
   DisjointSets sides(3 * faces_.size());
+  const auto corner = [](OpenMesh::FaceHandle f, int i) {
+    return 3 * static_cast<size_t>(f.idx()) + static_cast<size_t>(i);
+  };
   for (const auto edge : mesh.all_edges()) {
     if (is_feature_or_border(mesh, edge)) continue;
     const auto h = mesh.halfedge_handle(edge, 0);
     const auto left = mesh.face_handle(h), right = mesh.opposite_face_handle(h);
     for (const auto v : {mesh.from_vertex_handle(h), mesh.to_vertex_handle(h)})
-      sides.join(static_cast<size_t>(3 * left.idx() + corner_of(surface, left, v)),
-                 static_cast<size_t>(3 * right.idx() + corner_of(surface, right, v)));
+      sides.join(corner(left, corner_of(surface, left, v)), corner(right, corner_of(surface, right, v)));
   }
   std::vector<int> number(3 * faces_.size(), -1), count;
   for (const auto f : mesh.all_faces()) {
     const auto corners = surface.corners(f);
     for (int i = 0; i < 3; ++i) {
-      int& id = number[sides.root(static_cast<size_t>(3 * f.idx() + i))];
+      int& id = number[sides.root(corner(f, i))];
       const size_t vertex = static_cast<size_t>(corners.vertex[i].idx());
       if (id < 0) {
         id = static_cast<int>(nodes_.size());

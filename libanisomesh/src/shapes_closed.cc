@@ -186,6 +186,7 @@ ClosedSampling sample_cube(const ShapeOptions& options, std::mt19937& generator)
           plane.points.emplace_back(p[u], p[v]);
         }
       std::vector<int> border;
+      border.reserve(4 * static_cast<size_t>(n));
       for (int i = 0; i < n; ++i) border.push_back(i);
       for (int j = 0; j < n; ++j) border.push_back(j * (n + 1) + n);
       for (int i = n; i > 0; --i) border.push_back(n * (n + 1) + i);

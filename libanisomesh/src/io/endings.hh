@@ -24,7 +24,7 @@ inline std::string ending_of(const std::string& path) {
 
 /// The ending if it is one of `endings`. \throw InvalidInput that lists them
 inline std::string require_ending(const std::string& path, const std::vector<std::string>& endings) {
-  const std::string ending = ending_of(path);
+  std::string ending = ending_of(path);
   if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return ending;
   std::string list;
   for (size_t i = 0; i < endings.size(); ++i)

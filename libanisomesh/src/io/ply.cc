@@ -1,5 +1,6 @@
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 #include "io/scanner.hh"
 #include "io/soup.hh"
@@ -170,10 +171,19 @@ class Body {
   size_t index_ = 0;
 };
 
+/// How many values of a property follow.
+size_t values_of(Body& body, const PlyProperty& property) {
+  if (!property.is_list) return 1;
+  const double count = body.read(property.count_type);
+  if (!(count >= 0 && count <= std::numeric_limits<uint32_t>::max()))
+    body.fail("a list of " + std::to_string(count) + " elements");
+  return static_cast<size_t>(count);
+}
+
 void read_vertex(Body& body, const Element& element, Soup& soup) {
   Vec3d p(0, 0, 0);
   for (const auto& property : element.properties) {
-    const size_t n = property.is_list ? static_cast<size_t>(body.read(property.count_type)) : 1;
+    const size_t n = values_of(body, property);
     for (size_t i = 0; i < n; ++i) {
       const double value = body.read(property.type);
       if (property.is_list || property.name.size() != 1 || property.name[0] < 'x' || property.name[0] > 'z')
@@ -189,9 +199,8 @@ void read_face(Body& body, const Element& element, size_t n_points, Soup& soup) 
   for (const auto& property : element.properties) {
     const bool is_corners =
         property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
-    const double count = property.is_list ? body.read(property.count_type) : 1;
-    if (!(count >= 0)) body.fail("a list of " + std::to_string(count) + " elements");
-    for (double i = 0; i < count; ++i) {
+    const size_t count = values_of(body, property);
+    for (size_t i = 0; i < count; ++i) {
       const double value = body.read(property.type);
       if (!is_corners) continue;
       if (!(value >= 0 && value < static_cast<double>(n_points)) || value != std::floor(value))
@@ -247,8 +256,8 @@ Soup read_ply(const std::string& text, const std::string& path) {
         read_face(body, element, n_points, soup);
       } else {
         for (const auto& property : element.properties) {
-          const double count = property.is_list ? body.read(property.count_type) : 1;
-          for (double k = 0; k < count; ++k) body.read(property.type);
+          const size_t count = values_of(body, property);
+          for (size_t k = 0; k < count; ++k) body.read(property.type);
         }
       }
     }

@@ -75,7 +75,7 @@ void read_binary(const std::string& text, const std::string& path, Soup& soup, M
   const size_t n = (text.size() - 84) / 50;
   for (size_t f = 0; f < n; ++f) {
     const char* facet = text.data() + 84 + 50 * f + 12;  // behind the normal
-    for (int k = 0; k < 3; ++k) {
+    for (size_t k = 0; k < 3; ++k) {
       float p[3];
       std::memcpy(p, facet + 12 * k, sizeof p);
       if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))

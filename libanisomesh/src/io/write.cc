@@ -53,10 +53,10 @@ std::string obj_text(const Mesh& mesh) {
     text += 'f';
     for (const auto v : f.vertices()) {
       text += ' ';
-      append(text, static_cast<long long>(v.idx() + 1));
+      append(text, static_cast<long long>(v.idx()) + 1);
       if (!uv) continue;
       text += '/';
-      append(text, static_cast<long long>(v.idx() + 1));
+      append(text, static_cast<long long>(v.idx()) + 1);
     }
     text += '\n';
   }
