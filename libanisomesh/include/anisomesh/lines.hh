@@ -58,7 +58,7 @@ struct TraceReport {
 };
 
 /// Traces the network of lines of curvature. [ACDLD03, section 3.1]
-/// Reads: uv, area_stretch, tensor2d, umbilic, umbilic_position, edge feature status. Writes: the lines
+/// Reads: uv, area_stretch, tensor2d (without uv: surface_tensor, normal), umbilics, features. Writes: lines
 /// (write_lines()). \throw InvalidOption, InvalidInput, Cancelled
 TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& options = {},
                         const Progress& progress = {});

@@ -65,7 +65,7 @@ inline constexpr OnVertices<Vec6d> surface_tensor{"anisomesh:surface_tensor", "s
 
 // --- written by find_umbilics()
 // ------------------------------------------------------------------------------------
-/// 0: no umbilic in this face, 1: a wedge (index +1/2), -1: a trisector (index -1/2).
+/// 0: no umbilic in this face, 1: a wedge (index +1/2), -1: a trisector; on coarse surfaces more halves.
 inline constexpr OnFaces<int> umbilic{"anisomesh:umbilic", "find_umbilics"};
 /// Barycentric coordinates of the umbilic, in the order of SurfaceRef::corners(); (0, 0, 0) where there is
 /// none.

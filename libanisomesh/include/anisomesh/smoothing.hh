@@ -24,7 +24,7 @@ struct SmoothingReport {
 /// Gaussian filter of the 2D curvature tensors, coefficient by coefficient, clipped at features. [ACDLD03,
 /// section 2.3, 2.5] A support that holds no other vertex leaves the tensor as it is.
 ///
-/// Reads: uv, area_stretch, tensor2d, edge feature status. Writes: tensor2d.
+/// Reads: uv, area_stretch, tensor2d, features; writes: tensor2d. Without uv: tensor, normal; surface_tensor.
 /// \throw InvalidOption, InvalidInput, Cancelled; the mesh is then as it was
 SmoothingReport smooth_tensors(const SurfaceRef& surface, const SmoothingOptions& options = {},
                                const Progress& progress = {});

@@ -16,7 +16,7 @@ struct UmbilicReport {
 };
 
 /// Finds the umbilics of the piecewise linear tensor field: at most one in a face. [ACDLD03, section 2.4]
-/// Reads: uv, tensor2d, edge feature status (through corner_tensors()). Writes: umbilic, umbilic_position.
+/// Reads: uv, tensor2d, or without uv surface_tensor, normal; features. Writes: umbilic, umbilic_position.
 /// \throw InvalidInput
 UmbilicReport find_umbilics(const SurfaceRef& surface);
 
