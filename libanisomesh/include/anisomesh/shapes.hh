@@ -29,8 +29,8 @@ std::vector<std::string> disc_shape_names();
 /// sphere, ellipsoid, torus, cube.
 std::vector<std::string> closed_shape_names();
 
-/// A surface made by code, with vertex, edge and face status; the creases of octa-flower and cube are tagged as
-/// features. docs/shapes.md has the formula of each. \throw InvalidOption
+/// A surface made by code, with vertex, edge and face status; the creases of octa-flower and cube are tagged
+/// as features. docs/shapes.md has the formula of each. \throw InvalidOption
 OpenMesh::TriMesh make_shape(const std::string& name, const ShapeOptions& options = {});
 
 /// A surface given by a formula over a rectangle or the unit disc; its normal is x_u cross x_v.
