@@ -32,14 +32,14 @@ test('100,000 triangles with their lines open in less than 3 s from less than 25
   // cores, than half of what the clock says there.
   const seconds = [];
   const processor = [];
-  for (let i = 0; i < 3 && !(Math.min(...seconds) < 3); ++i) {
+  for (let i = 0; i < 2 && !(Math.min(...seconds, ...processor) < 3); ++i) {
     const before = processorSeconds();
     const { page, milliseconds, complaints } = await open('wave.html');
     processor.push(processorSeconds() - before);
     const triangles = await page.evaluate(() => window.anisomesh.stage.surface.faceCount);
     assert.ok(triangles >= 100000, `${triangles} triangles`);
-    boxOf(await screenshot(page));
     assert.deepEqual(complaints, []);
+    if (i === 0) boxOf(await screenshot(page));
     seconds.push(milliseconds / 1000);
     await page.close();
   }

@@ -20,6 +20,8 @@ export class Viewer {
     this.renderer = new WebGLRenderer({ canvas: drawing, antialias: true, preserveDrawingBuffer: Boolean(header.picture) });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.autoClear = false;
+    this.renderer.sortObjects = false; // depth decides
+    this.renderer.debug.checkShaderErrors = false; // asking would wait for the compiler
     this.space = new View(true);
     this.plane = new View(false);
     this.onPick = () => {};
