@@ -9,7 +9,9 @@ function processorSeconds() {
   const all = new Map();
   for (const pid of readdirSync('/proc').filter((name) => /^\d+$/.test(name))) {
     try {
-      const fields = readFileSync(`/proc/${pid}/stat`, 'utf8').replace(/^.*\) /, '').split(' ');
+      const fields = readFileSync(`/proc/${pid}/stat`, 'utf8')
+        .replace(/^.*\) /, '')
+        .split(' ');
       all.set(+pid, { parent: +fields[1], ticks: +fields[11] + +fields[12] });
     } catch {
       continue; // it has ended
@@ -43,7 +45,9 @@ test('100,000 triangles with their lines open in less than 3 s from less than 25
     seconds.push(milliseconds / 1000);
     await page.close();
   }
-  console.log(`${megabytes.toFixed(1)} MB, opened in ${seconds.join(', ')} s, ${processor.map((x) => x.toFixed(2)).join(', ')} s of processor time`);
+  console.log(
+    `${megabytes.toFixed(1)} MB, opened in ${seconds.join(', ')} s, ${processor.map((x) => x.toFixed(2)).join(', ')} s of processor time`,
+  );
   assert.ok(megabytes < 25, `${megabytes} MB`);
   assert.ok(Math.min(...seconds, ...processor) < 3, `${seconds} s by the clock, ${processor} s of processor time`);
 });

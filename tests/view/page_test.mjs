@@ -12,7 +12,8 @@ before(async () => {
 });
 
 const show = (page, name, on = true) => page.locator(`[data-layer="${name}"]`).setChecked(on);
-const settle = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+const settle = (page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 const layerNames = (page) => page.locator('[data-layer]').evaluateAll((inputs) => inputs.map((i) => i.dataset.layer));
 
 /** Switches everything off but these; the colours to none. */
@@ -34,7 +35,11 @@ async function place(page, box, u, v) {
 }
 
 const picked = (page) =>
-  page.locator('#picked section').evaluateAll((all) => Object.fromEntries(all.map((s) => [s.dataset.kind, { number: +s.dataset.number, text: s.innerText }])));
+  page
+    .locator('#picked section')
+    .evaluateAll((all) =>
+      Object.fromEntries(all.map((s) => [s.dataset.kind, { number: +s.dataset.number, text: s.innerText }])),
+    );
 
 test('opens from a file with no complaint and no request but for itself', async () => {
   const { page, complaints, requests } = await open('all.html');
@@ -50,7 +55,12 @@ test('has the layers that --help lists, no more and no fewer', async () => {
   const { page } = await open('all.html');
   const inPage = (await layerNames(page)).filter((name) => !name.startsWith('no-')).sort();
   const help = must('anisomesh-view', '--help').replace(/\s+/g, ' ');
-  const listed = /may be repeated: ([a-z, -]+)/.exec(help)[1].split(', ').map((name) => name.trim().split(' ')[0]).filter(Boolean).sort();
+  const listed = /may be repeated: ([a-z, -]+)/
+    .exec(help)[1]
+    .split(', ')
+    .map((name) => name.trim().split(' ')[0])
+    .filter(Boolean)
+    .sort();
   assert.deepEqual(inPage, listed);
   await page.close();
 });
@@ -59,7 +69,12 @@ test('every layer changes the picture, and switching it off brings the old one b
   const { page, complaints } = await open('all.html', { width: 1000, height: 480 });
   const bases = new Map();
   for (const name of (await layerNames(page)).filter((n) => !n.startsWith('no-'))) {
-    const base = name === 'surface' ? ['result'] : ['plane', 'result', 'overlay'].includes(name) ? ['surface'] : ['surface', 'plane', 'result'];
+    const base =
+      name === 'surface'
+        ? ['result']
+        : ['plane', 'result', 'overlay'].includes(name)
+          ? ['surface']
+          : ['surface', 'plane', 'result'];
     await only(page, ...base);
     // the picture before the first layer on this base; after each layer it must be the same again
     const now = await screenshot(page);
@@ -85,9 +100,36 @@ test('lines, features, border and umbilics are where they should be, in space', 
   const box = boxOf(await screenshot(page));
   assert.ok(Math.abs(box.right - box.left - (box.bottom - box.top)) <= 3, 'the square is a square');
   const expected = [
-    ['max-lines', 'red', [0.55, 0.1], [0.55, 0.77], [[0.5, 0.1], [0.6, 0.77]]],
-    ['min-lines', 'blue', [0.07, 0.35], [0.93, 0.35], [[0.07, 0.4], [0.93, 0.3]]],
-    ['features', 'green', [0.2, 0.05], [0.2, 0.95], [[0.15, 0.05], [0.25, 0.95]]],
+    [
+      'max-lines',
+      'red',
+      [0.55, 0.1],
+      [0.55, 0.77],
+      [
+        [0.5, 0.1],
+        [0.6, 0.77],
+      ],
+    ],
+    [
+      'min-lines',
+      'blue',
+      [0.07, 0.35],
+      [0.93, 0.35],
+      [
+        [0.07, 0.4],
+        [0.93, 0.3],
+      ],
+    ],
+    [
+      'features',
+      'green',
+      [0.2, 0.05],
+      [0.2, 0.95],
+      [
+        [0.15, 0.05],
+        [0.25, 0.95],
+      ],
+    ],
     ['umbilics', 'orange', [0.75, 0.87], [0.75, 0.87], [[0.25, 0.87]]],
     ['umbilics', 'purple', [0.25, 0.87], [0.25, 0.87], [[0.75, 0.87]]],
     ['samples', 'black', [0.85, 0.16], [0.85, 0.16], [[0.75, 0.16]]],
@@ -199,7 +241,8 @@ test('panes turn together', async () => {
     const half = Math.floor(picture.width / 2);
     const area = (x) => {
       const out = [];
-      for (let j = 26; j < picture.height - 40; ++j) for (let i = 0; i < half - 2; ++i) out.push(hues.white(picture.at(x + i, j)) ? 0 : 1);
+      for (let j = 26; j < picture.height - 40; ++j)
+        for (let i = 0; i < half - 2; ++i) out.push(hues.white(picture.at(x + i, j)) ? 0 : 1);
       return out;
     };
     return [area(0), area(half)];
@@ -233,10 +276,13 @@ test('the table has the figures that anisomesh-compare has', async () => {
   const said = must('anisomesh-compare', 'saddle.off', 'quads.obj');
   must('anisomesh-view', '-q', 'saddle.off', 'quads.obj', '-o', 'figures.html', '--table', 'quads.json');
   const { page } = await open('figures.html');
-  const rows = await page.locator('details[data-table^="Figures"] tr').evaluateAll((all) => all.map((r) => [...r.children].map((c) => c.textContent)));
+  const rows = await page
+    .locator('details[data-table^="Figures"] tr')
+    .evaluateAll((all) => all.map((r) => [...r.children].map((c) => c.textContent)));
   const values = rows.filter((r) => r.length === 2);
   assert.ok(values.length > 12);
-  for (const [what, value] of values) assert.ok(said.includes(value) && said.includes(what), `${what}: ${value} is in\n${said}`);
+  for (const [what, value] of values)
+    assert.ok(said.includes(value) && said.includes(what), `${what}: ${value} is in\n${said}`);
   await page.locator('details[data-table="quads.json"] summary').click();
   const text = await page.locator('details[data-table="quads.json"]').innerText();
   assert.match(text, /--epsilon\s+0\.003/);
@@ -263,7 +309,8 @@ test('anisomesh-remesh --report shows input, lines, result, figures, stages and 
   assert.deepEqual(complaints, []);
   const names = await layerNames(page);
   // the .obj carries nothing, the report all of it
-  for (const name of ['min-lines', 'umbilics', 'plane', 'degree', 'error', 'edge-kinds', 'plane-polygons']) assert.ok(names.includes(name), name);
+  for (const name of ['min-lines', 'umbilics', 'plane', 'degree', 'error', 'edge-kinds', 'plane-polygons'])
+    assert.ok(names.includes(name), name);
   assert.ok(await page.locator('[data-layer="max-lines"]').isChecked());
   await page.locator('details[data-table="Options"] summary').click();
   assert.match(await page.locator('details[data-table="Options"]').innerText(), /--rho\s+0\.25/);

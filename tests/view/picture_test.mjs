@@ -21,7 +21,21 @@ function refused(code, says, args, environment) {
 }
 
 test('a picture has the size asked for and shows the layers asked for', () => {
-  must('anisomesh-view', '-q', 'known.om', '--png', 'lines.png', '--layer', 'border', '--layer', 'max-lines', '--size', '640x480', '--view', 'front');
+  must(
+    'anisomesh-view',
+    '-q',
+    'known.om',
+    '--png',
+    'lines.png',
+    '--layer',
+    'border',
+    '--layer',
+    'max-lines',
+    '--size',
+    '640x480',
+    '--view',
+    'front',
+  );
   const picture = readPng('lines.png');
   assert.deepEqual([picture.width, picture.height], [640, 480]);
   const box = boxOf(picture, { footer });
@@ -34,18 +48,67 @@ test('a picture has the size asked for and shows the layers asked for', () => {
 });
 
 test('a picture is seen from where it is asked for', () => {
-  must('anisomesh-view', '-q', 'known.om', '--png', 'back.png', '--layer', 'border', '--layer', 'max-lines', '--view', 'back');
+  must(
+    'anisomesh-view',
+    '-q',
+    'known.om',
+    '--png',
+    'back.png',
+    '--layer',
+    'border',
+    '--layer',
+    'max-lines',
+    '--view',
+    'back',
+  );
   const picture = readPng('back.png');
   const box = boxOf(picture, { footer });
   assert.ok(near(picture, ...box.at(0.45, 0.8), 'red'), 'left and right change places');
   assert.ok(!near(picture, ...box.at(0.55, 0.8), 'red'));
-  must('anisomesh-view', '-q', 'known.om', '--png', 'turned.png', '--layer', 'border', '--layer', 'max-lines', '--view', '0,0,1', '--up', '1,0,0');
+  must(
+    'anisomesh-view',
+    '-q',
+    'known.om',
+    '--png',
+    'turned.png',
+    '--layer',
+    'border',
+    '--layer',
+    'max-lines',
+    '--view',
+    '0,0,1',
+    '--up',
+    '1,0,0',
+  );
   const turned = readPng('turned.png');
-  assert.ok(near(turned, ...boxOf(turned, { footer }).at(0.8, 0.55), 'red'), '--up 1,0,0 turns the square by a quarter');
+  assert.ok(
+    near(turned, ...boxOf(turned, { footer }).at(0.8, 0.55), 'red'),
+    '--up 1,0,0 turns the square by a quarter',
+  );
 });
 
 test('--zoom and --at look closer', () => {
-  must('anisomesh-view', '-q', 'known.om', '--png', 'close.png', '--layer', 'max-lines', '--layer', 'min-lines', '--layer', 'features', '--view', 'front', '--zoom', '4', '--at', '0.55,0.35,0', '--size', '400x400');
+  must(
+    'anisomesh-view',
+    '-q',
+    'known.om',
+    '--png',
+    'close.png',
+    '--layer',
+    'max-lines',
+    '--layer',
+    'min-lines',
+    '--layer',
+    'features',
+    '--view',
+    'front',
+    '--zoom',
+    '4',
+    '--at',
+    '0.55,0.35,0',
+    '--size',
+    '400x400',
+  );
   const picture = readPng('close.png');
   const [x, y] = [200, 24 + (400 - 24 - 25) / 2]; // between title and legend
   assert.ok(near(picture, x, y - 100, 'red') && near(picture, x, y + 100, 'red'), 'the max line is in the middle');
@@ -54,7 +117,24 @@ test('--zoom and --at look closer', () => {
 });
 
 test('panes stand side by side in a picture', () => {
-  must('anisomesh-view', '-q', 'known.om', 'known-result.om', '--png', 'both.png', '--layer', 'max-lines', '--layer', 'degree', '--layer', 'polygons', '--size', '1000x500', '--view', 'front');
+  must(
+    'anisomesh-view',
+    '-q',
+    'known.om',
+    'known-result.om',
+    '--png',
+    'both.png',
+    '--layer',
+    'max-lines',
+    '--layer',
+    'degree',
+    '--layer',
+    'polygons',
+    '--size',
+    '1000x500',
+    '--view',
+    'front',
+  );
   const picture = readPng('both.png');
   const [left, right] = [boxOf(picture, { x: 0, width: 498, footer }), boxOf(picture, { x: 502, width: 498, footer })];
   assert.ok(near(picture, ...left.at(0.55, 0.5), 'red'));
@@ -64,7 +144,20 @@ test('panes stand side by side in a picture', () => {
 });
 
 test('a picture that asks for errors measures them', () => {
-  must('anisomesh-view', '-q', 'known.om', 'known-result.om', '--png', 'error.png', '--layer', 'error', '--view', 'front', '--size', '400x400');
+  must(
+    'anisomesh-view',
+    '-q',
+    'known.om',
+    'known-result.om',
+    '--png',
+    'error.png',
+    '--layer',
+    'error',
+    '--view',
+    'front',
+    '--size',
+    '400x400',
+  );
   const picture = readPng('error.png');
   const box = boxOf(picture, { footer: 54 });
   const [quad, triangle] = [picture.at(...box.at(0.25, 0.6)), picture.at(...box.at(0.9, 0.3))];
@@ -75,7 +168,10 @@ test('a drawing has lines, umbilics and polygons where they are', () => {
   must('anisomesh-view', '-q', 'known.om', 'known-result.om', '--svg', 'plane.svg');
   const svg = readFileSync(file('plane.svg'), 'utf8');
   const group = (name) => new RegExp(`<g id="${name}"[^>]*>([^]*?)</g>`).exec(svg)[1];
-  const paths = (name) => [...group(name).matchAll(/ d="([^"]*)"/g)].map((m) => [...m[1].matchAll(/[ML](\S+) ([-\d.]+)/g)].map((p) => [+p[1], +p[2]]));
+  const paths = (name) =>
+    [...group(name).matchAll(/ d="([^"]*)"/g)].map((m) =>
+      [...m[1].matchAll(/[ML](\S+) ([-\d.]+)/g)].map((p) => [+p[1], +p[2]]),
+    );
   // the border says where the square is
   const all = paths('border').flat();
   const [x, y] = [0, 1].map((c) => [Math.min(...all.map((p) => p[c])), Math.max(...all.map((p) => p[c]))]);
@@ -99,7 +195,11 @@ test('a drawing has lines, umbilics and polygons where they are', () => {
 });
 
 test('a layer without its property is refused with the stage to run', () => {
-  refused(3, ['dome.om', "'k-min'", 'anisomesh:k_min', 'run anisomesh-estimate'], ['dome.om', '-o', 'out.html', '--layer', 'k-min']);
+  refused(
+    3,
+    ['dome.om', "'k-min'", 'anisomesh:k_min', 'run anisomesh-estimate'],
+    ['dome.om', '-o', 'out.html', '--layer', 'k-min'],
+  );
   refused(3, ['run anisomesh-flatten'], ['dome.om', '-o', 'out.html', '--layer', 'umbilics']);
   refused(3, ['run anisomesh-flatten'], ['dome.om', '-o', 'out.html', '--layer', 'plane']);
   refused(3, ['run anisomesh-trace'], ['dome.om', '--png', 'out.png', '--layer', 'min-lines']);
@@ -144,7 +244,9 @@ test('what is no mesh, or nowhere to write, is refused', () => {
 test('without Chromium a picture is refused with the package to install; pages and drawings go on', () => {
   const none = { PATH: file('nothing'), ANISOMESH_CHROMIUM: '' };
   refused(4, ["install the package 'chromium'"], ['known.om', '--png', 'out.png'], none);
-  refused(4, ['ANISOMESH_CHROMIUM names no program: /no/chromium'], ['known.om', '--png', 'out.png'], { ANISOMESH_CHROMIUM: '/no/chromium' });
+  refused(4, ['ANISOMESH_CHROMIUM names no program: /no/chromium'], ['known.om', '--png', 'out.png'], {
+    ANISOMESH_CHROMIUM: '/no/chromium',
+  });
   const { status, stderr } = run('anisomesh-view', ['-q', 'known.om', '-o', 'fine.html', '--svg', 'fine.svg'], none);
   assert.equal(status, 0, stderr);
   assert.ok(existsSync(file('fine.html')) && existsSync(file('fine.svg')));
@@ -153,17 +255,28 @@ test('without Chromium a picture is refused with the package to install; pages a
 test('a Chromium that draws nothing is said to have drawn nothing', () => {
   writeFileSync(file('broken'), '#!/bin/sh\necho "no screen, no card" >&2\nexit 1\n');
   chmodSync(file('broken'), 0o755);
-  refused(4, ['drew no picture', 'no screen, no card'], ['known.om', '--png', 'out.png'], { ANISOMESH_CHROMIUM: file('broken') });
+  refused(4, ['drew no picture', 'no screen, no card'], ['known.om', '--png', 'out.png'], {
+    ANISOMESH_CHROMIUM: file('broken'),
+  });
   assert.ok(!existsSync(file('out.png')));
 });
 
 test('a build without the page says what to install, and draws drawings', () => {
-  for (const output of [['-o', 'none.html'], ['--png', 'none.png']]) {
-    const { status, stderr } = spawnSync(process.env.ANISOMESH_WITHOUT_PAGE, ['known.om', ...output], { cwd: work, encoding: 'utf8' });
+  for (const output of [
+    ['-o', 'none.html'],
+    ['--png', 'none.png'],
+  ]) {
+    const { status, stderr } = spawnSync(process.env.ANISOMESH_WITHOUT_PAGE, ['known.om', ...output], {
+      cwd: work,
+      encoding: 'utf8',
+    });
     assert.equal(status, 4, stderr);
     assert.match(stderr, /no viewer page; install npm and configure with -D ANISOMESH_VIEW=ON/);
   }
-  const { status, stderr } = spawnSync(process.env.ANISOMESH_WITHOUT_PAGE, ['-q', 'known.om', '--svg', 'without.svg'], { cwd: work, encoding: 'utf8' });
+  const { status, stderr } = spawnSync(process.env.ANISOMESH_WITHOUT_PAGE, ['-q', 'known.om', '--svg', 'without.svg'], {
+    cwd: work,
+    encoding: 'utf8',
+  });
   assert.equal(status, 0, stderr);
   assert.ok(readFileSync(file('without.svg'), 'utf8').includes('max-lines'));
 });

@@ -11,7 +11,9 @@ export const apps = process.env.ANISOMESH_APPS;
 const knownSurface = process.env.ANISOMESH_KNOWN_SURFACE;
 const packages = process.env.ANISOMESH_VIEW_PACKAGES;
 
-const names = (process.env.PATH ?? '').split(':').flatMap((folder) => ['chromium', 'chromium-browser', 'google-chrome'].map((n) => path.join(folder, n)));
+const names = (process.env.PATH ?? '')
+  .split(':')
+  .flatMap((folder) => ['chromium', 'chromium-browser', 'google-chrome'].map((n) => path.join(folder, n)));
 export const chromiumPath = process.env.ANISOMESH_CHROMIUM || names.find((name) => existsSync(name));
 if (!chromiumPath) {
   console.log('SKIPPED: there is no Chromium (package chromium)');
@@ -28,7 +30,12 @@ export const file = (name) => path.join(work, name);
 
 /** Runs an app: status, stdout, stderr. */
 export function run(app, args, environment = {}) {
-  return spawnSync(path.join(apps, app), args, { encoding: 'utf8', cwd: work, env: { ...process.env, ...environment }, maxBuffer: 1 << 28 });
+  return spawnSync(path.join(apps, app), args, {
+    encoding: 'utf8',
+    cwd: work,
+    env: { ...process.env, ...environment },
+    maxBuffer: 1 << 28,
+  });
 }
 
 /** Runs an app that must succeed without a word on stderr. */
@@ -55,7 +62,11 @@ export async function openBrowser() {
     const page = await browser.newPage({ viewport });
     const complaints = [];
     const requests = [];
-    page.on('console', (message) => ['error', 'warning'].includes(message.type()) && !driverNote(message.text()) && complaints.push(message.text()));
+    page.on(
+      'console',
+      (message) =>
+        ['error', 'warning'].includes(message.type()) && !driverNote(message.text()) && complaints.push(message.text()),
+    );
     page.on('pageerror', (error) => complaints.push(error.message));
     page.on('request', (request) => requests.push(request.url()));
     const begun = Date.now();
@@ -99,7 +110,18 @@ export function decodePng(bytes) {
       out[y * stride + x] = (raw[y * (stride + 1) + 1 + x] + guess) & 255;
     }
   }
-  return { width, height, channels, pixels: out, at: (x, y) => [...out.subarray((Math.round(y) * width + Math.round(x)) * channels, (Math.round(y) * width + Math.round(x)) * channels + 3)] };
+  return {
+    width,
+    height,
+    channels,
+    pixels: out,
+    at: (x, y) => [
+      ...out.subarray(
+        (Math.round(y) * width + Math.round(x)) * channels,
+        (Math.round(y) * width + Math.round(x)) * channels + 3,
+      ),
+    ],
+  };
 }
 
 export const readPng = (name) => decodePng(readFileSync(file(name)));
@@ -151,7 +173,8 @@ export function differing(a, b, { x = 0, y = 0, width = a.width, height = a.heig
   for (let j = y; j < y + height; ++j)
     for (let i = x; i < x + width; ++i) {
       let sum = 0;
-      for (let c = 0; c < 3; ++c) sum += Math.abs(a.pixels[(j * a.width + i) * a.channels + c] - b.pixels[(j * b.width + i) * b.channels + c]);
+      for (let c = 0; c < 3; ++c)
+        sum += Math.abs(a.pixels[(j * a.width + i) * a.channels + c] - b.pixels[(j * b.width + i) * b.channels + c]);
       if (sum > 12) ++count;
     }
   return count;

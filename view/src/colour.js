@@ -44,9 +44,7 @@ export function rgb(hex) {
   return [n >> 16, (n >> 8) & 255, n & 255];
 }
 
-const tables = Object.fromEntries(
-  Object.entries(stops).map(([name, text]) => [name, text.split(' ').map(rgb)]),
-);
+const tables = Object.fromEntries(Object.entries(stops).map(([name, text]) => [name, text.split(' ').map(rgb)]));
 
 /** Writes the colour at t in [0, 1] to out[at...at + 2], 0 to 255. */
 export function mapColour(map, t, out, at) {

@@ -69,8 +69,17 @@ export function crossSegments(surface, domain, source) {
   const home = inPlane ? 'plane' : 'space'; // where the directions are given
   const crosses = vertices.map((v) => {
     if (inPlane) return { v, ...eigen(a.tensor2d[3 * v], a.tensor2d[3 * v + 1], a.tensor2d[3 * v + 2]) };
-    if (source === 'smoothed') return { v, k: [...a.smoothed_k.subarray(2 * v, 2 * v + 2)], d: [a.smoothed_min, a.smoothed_max].map((g) => [...g.subarray(3 * v, 3 * v + 3)]) };
-    return { v, k: [a.k_min[v], a.k_max[v]], d: [a.gamma_min, a.gamma_max].map((g) => [...g.subarray(3 * v, 3 * v + 3)]) };
+    if (source === 'smoothed')
+      return {
+        v,
+        k: [...a.smoothed_k.subarray(2 * v, 2 * v + 2)],
+        d: [a.smoothed_min, a.smoothed_max].map((g) => [...g.subarray(3 * v, 3 * v + 3)]),
+      };
+    return {
+      v,
+      k: [a.k_min[v], a.k_max[v]],
+      d: [a.gamma_min, a.gamma_max].map((g) => [...g.subarray(3 * v, 3 * v + 3)]),
+    };
   });
   // Full length at what all but a tenth stay below: a few creases would leave everything else dots.
   const sizes = Float32Array.from(crosses.flatMap((x) => x.k.map(Math.abs))).sort();

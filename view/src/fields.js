@@ -1,14 +1,25 @@
 // The scalars that a colour map can show: how each comes from what the stages wrote, its map and its range.
 
 const curvature = { map: 'coolwarm', diverging: true };
-const tick = (v) => (v === 0 ? '0' : Math.abs(v) >= 1e4 || Math.abs(v) < 1e-3 ? v.toExponential(1) : String(+v.toPrecision(3)));
+const tick = (v) =>
+  v === 0 ? '0' : Math.abs(v) >= 1e4 || Math.abs(v) < 1e-3 ? v.toExponential(1) : String(+v.toPrecision(3));
 
 /** On the vertices of the input: of(a, i) is the value at vertex i, from the arrays. */
 export const surfaceFields = {
   'k-min': { ...curvature, label: 'k_min, 1/length', needs: ['k_min'], of: (a, i) => a.k_min[i] },
   'k-max': { ...curvature, label: 'k_max, 1/length', needs: ['k_max'], of: (a, i) => a.k_max[i] },
-  mean: { ...curvature, label: 'mean curvature, 1/length', needs: ['k_min', 'k_max'], of: (a, i) => (a.k_min[i] + a.k_max[i]) / 2 },
-  gauss: { ...curvature, label: 'Gaussian curvature, 1/length²', needs: ['k_min', 'k_max'], of: (a, i) => a.k_min[i] * a.k_max[i] },
+  mean: {
+    ...curvature,
+    label: 'mean curvature, 1/length',
+    needs: ['k_min', 'k_max'],
+    of: (a, i) => (a.k_min[i] + a.k_max[i]) / 2,
+  },
+  gauss: {
+    ...curvature,
+    label: 'Gaussian curvature, 1/length²',
+    needs: ['k_min', 'k_max'],
+    of: (a, i) => a.k_min[i] * a.k_max[i],
+  },
   anisotropy: {
     map: 'viridis',
     range: [0, 1],

@@ -50,7 +50,8 @@ function triangleEdges(surface) {
 const repeat = (colour, count) => Uint8Array.from({ length: 3 * count }, (_, i) => colour[i % 3]);
 
 function drawLines(kind) {
-  return (surface, domain) => segmentsOf(lineSegments(surface, domain, kind).segments, { colour: rgb(kind ? colours.max : colours.min) });
+  return (surface, domain) =>
+    segmentsOf(lineSegments(surface, domain, kind).segments, { colour: rgb(kind ? colours.max : colours.min) });
 }
 
 function drawCrosses(source) {
@@ -66,11 +67,16 @@ function drawUmbilics(surface, domain) {
   const wedge = surface.arrays.umbilic_wedge;
   const c = new Uint8Array(3 * wedge.length);
   wedge.forEach((w, i) => c.set(rgb(w ? colours.wedge : colours.trisector), 3 * i));
-  return dotsOf(surface.places(domain, 'umbilic'), { colours: c, shapes: Float32Array.from(wedge, (w) => (w ? 0 : 1)), size: 11 });
+  return dotsOf(surface.places(domain, 'umbilic'), {
+    colours: c,
+    shapes: Float32Array.from(wedge, (w) => (w ? 0 : 1)),
+    size: 11,
+  });
 }
 
 function drawEdges(key, colour, width) {
-  return (surface, domain) => segmentsOf(edgeSegments(surface.arrays[key], surface.pointsIn(domain)), { colour: rgb(colour), width });
+  return (surface, domain) =>
+    segmentsOf(edgeSegments(surface.arrays[key], surface.pointsIn(domain)), { colour: rgb(colour), width });
 }
 
 function drawResultEdges(byKind) {
@@ -89,7 +95,10 @@ function drawOrigins(result, points, bias) {
   return dotsOf(points, { colours: c, size: 7, bias: bias + 0.002 });
 }
 
-const has = (...keys) => (model) => keys.every((key) => model.arrays[key]);
+const has =
+  (...keys) =>
+  (model) =>
+    keys.every((key) => model.arrays[key]);
 const always = () => true;
 
 /** In the order of the panel. `of` is what a layer is drawn from. */
@@ -101,52 +110,177 @@ export const layers = [
 
   { name: 'k-min', group: 'Colour of the input', label: 'k_min', of: 'surface', field: true, available: has('k_min') },
   { name: 'k-max', group: 'Colour of the input', label: 'k_max', of: 'surface', field: true, available: has('k_max') },
-  { name: 'mean', group: 'Colour of the input', label: 'mean curvature', of: 'surface', field: true, available: has('k_min', 'k_max') },
-  { name: 'gauss', group: 'Colour of the input', label: 'Gaussian curvature', of: 'surface', field: true, available: has('k_min', 'k_max') },
-  { name: 'anisotropy', group: 'Colour of the input', label: 'anisotropy', of: 'surface', field: true, available: has('k_min', 'k_max') },
-  { name: 'stretch', group: 'Colour of the input', label: 'area stretch', of: 'surface', field: true, available: has('stretch') },
+  {
+    name: 'mean',
+    group: 'Colour of the input',
+    label: 'mean curvature',
+    of: 'surface',
+    field: true,
+    available: has('k_min', 'k_max'),
+  },
+  {
+    name: 'gauss',
+    group: 'Colour of the input',
+    label: 'Gaussian curvature',
+    of: 'surface',
+    field: true,
+    available: has('k_min', 'k_max'),
+  },
+  {
+    name: 'anisotropy',
+    group: 'Colour of the input',
+    label: 'anisotropy',
+    of: 'surface',
+    field: true,
+    available: has('k_min', 'k_max'),
+  },
+  {
+    name: 'stretch',
+    group: 'Colour of the input',
+    label: 'area stretch',
+    of: 'surface',
+    field: true,
+    available: has('stretch'),
+  },
 
   {
-    name: 'triangles', group: 'On the input', label: 'triangles', of: 'surface', available: always,
-    draw: (s, d) => segmentsOf(edgeSegments(triangleEdges(s), s.pointsIn(d)), { colour: rgb(colours.triangles), width: 1, bias: 0.001 }),
+    name: 'triangles',
+    group: 'On the input',
+    label: 'triangles',
+    of: 'surface',
+    available: always,
+    draw: (s, d) =>
+      segmentsOf(edgeSegments(triangleEdges(s), s.pointsIn(d)), {
+        colour: rgb(colours.triangles),
+        width: 1,
+        bias: 0.001,
+      }),
   },
-  { name: 'border', group: 'On the input', label: 'border', of: 'surface', available: has('border'), draw: drawEdges('border', colours.border, 2), swatch: [['border', colours.border]] },
   {
-    name: 'features', group: 'On the input', label: 'features', of: 'surface', available: has('features'),
-    draw: drawEdges('features', colours.feature, 3), swatch: [['features', colours.feature]],
+    name: 'border',
+    group: 'On the input',
+    label: 'border',
+    of: 'surface',
+    available: has('border'),
+    draw: drawEdges('border', colours.border, 2),
+    swatch: [['border', colours.border]],
   },
   {
-    name: 'crosses', group: 'On the input', label: 'principal directions', of: 'surface', available: has('k_min', 'k_max', 'gamma_min', 'gamma_max'),
-    draw: drawCrosses('estimated'), swatch: [['min direction', colours.min], ['max direction', colours.max]],
+    name: 'features',
+    group: 'On the input',
+    label: 'features',
+    of: 'surface',
+    available: has('features'),
+    draw: drawEdges('features', colours.feature, 3),
+    swatch: [['features', colours.feature]],
   },
   {
-    name: 'smoothed-crosses', group: 'On the input', label: 'smoothed directions', of: 'surface', available: (s) => has('uv', 'tensor2d')(s) || has('smoothed_k')(s),
-    draw: drawCrosses('smoothed'), swatch: [['smoothed min direction', colours.min], ['smoothed max direction', colours.max]],
+    name: 'crosses',
+    group: 'On the input',
+    label: 'principal directions',
+    of: 'surface',
+    available: has('k_min', 'k_max', 'gamma_min', 'gamma_max'),
+    draw: drawCrosses('estimated'),
+    swatch: [
+      ['min direction', colours.min],
+      ['max direction', colours.max],
+    ],
   },
-  { name: 'min-lines', group: 'On the input', label: 'min lines', of: 'surface', available: has('line_table'), draw: drawLines(0), swatch: [['min lines', colours.min]] },
-  { name: 'max-lines', group: 'On the input', label: 'max lines', of: 'surface', available: has('line_table'), draw: drawLines(1), swatch: [['max lines', colours.max]] },
   {
-    name: 'samples', group: 'On the input', label: 'isotropic samples', of: 'surface', available: has('sample_faces'),
-    draw: (s, d) => dotsOf(s.places(d, 'sample'), { colours: repeat(rgb(colours.sample), s.arrays.sample_faces.length), size: 6 }),
+    name: 'smoothed-crosses',
+    group: 'On the input',
+    label: 'smoothed directions',
+    of: 'surface',
+    available: (s) => has('uv', 'tensor2d')(s) || has('smoothed_k')(s),
+    draw: drawCrosses('smoothed'),
+    swatch: [
+      ['smoothed min direction', colours.min],
+      ['smoothed max direction', colours.max],
+    ],
+  },
+  {
+    name: 'min-lines',
+    group: 'On the input',
+    label: 'min lines',
+    of: 'surface',
+    available: has('line_table'),
+    draw: drawLines(0),
+    swatch: [['min lines', colours.min]],
+  },
+  {
+    name: 'max-lines',
+    group: 'On the input',
+    label: 'max lines',
+    of: 'surface',
+    available: has('line_table'),
+    draw: drawLines(1),
+    swatch: [['max lines', colours.max]],
+  },
+  {
+    name: 'samples',
+    group: 'On the input',
+    label: 'isotropic samples',
+    of: 'surface',
+    available: has('sample_faces'),
+    draw: (s, d) =>
+      dotsOf(s.places(d, 'sample'), { colours: repeat(rgb(colours.sample), s.arrays.sample_faces.length), size: 6 }),
     swatch: [['isotropic samples', colours.sample, 'disc']],
   },
   {
-    name: 'umbilics', group: 'On the input', label: 'umbilics', of: 'surface', available: has('umbilic_wedge'), draw: drawUmbilics,
-    swatch: [['wedges', colours.wedge, 'disc'], ['trisectors', colours.trisector, 'triangle']],
+    name: 'umbilics',
+    group: 'On the input',
+    label: 'umbilics',
+    of: 'surface',
+    available: has('umbilic_wedge'),
+    draw: drawUmbilics,
+    swatch: [
+      ['wedges', colours.wedge, 'disc'],
+      ['trisectors', colours.trisector, 'triangle'],
+    ],
   },
 
   { name: 'degree', group: 'Colour of the result', label: 'degree', of: 'result', field: true, available: always },
-  { name: 'error', group: 'Colour of the result', label: 'error', of: 'result', field: true, available: has('face_error') },
+  {
+    name: 'error',
+    group: 'Colour of the result',
+    label: 'error',
+    of: 'result',
+    field: true,
+    available: has('face_error'),
+  },
   { name: 'bend', group: 'Colour of the result', label: 'bend', of: 'result', field: true, available: always },
 
-  { name: 'polygons', group: 'On the result', label: 'edges', of: 'result', available: always, draw: drawResultEdges(false) },
-  { name: 'edge-kinds', group: 'On the result', label: 'edges by kind', of: 'result', available: has('edge_kind'), draw: drawResultEdges(true), swatch: edgeKinds },
   {
-    name: 'origins', group: 'On the result', label: 'vertices by origin', of: 'result', available: has('origin'), draw: drawOrigins,
+    name: 'polygons',
+    group: 'On the result',
+    label: 'edges',
+    of: 'result',
+    available: always,
+    draw: drawResultEdges(false),
+  },
+  {
+    name: 'edge-kinds',
+    group: 'On the result',
+    label: 'edges by kind',
+    of: 'result',
+    available: has('edge_kind'),
+    draw: drawResultEdges(true),
+    swatch: edgeKinds,
+  },
+  {
+    name: 'origins',
+    group: 'On the result',
+    label: 'vertices by origin',
+    of: 'result',
+    available: has('origin'),
+    draw: drawOrigins,
     swatch: origins.map(([what, colour]) => [what, colour, 'disc']),
   },
   {
-    name: 'plane-polygons', group: 'On the result', label: 'polygons in the plane', of: 'both',
+    name: 'plane-polygons',
+    group: 'On the result',
+    label: 'polygons in the plane',
+    of: 'both',
     available: (model, surface) => Boolean(surface && surface.arrays.uv && model.arrays.source_faces),
   },
 ];

@@ -21,15 +21,20 @@ function swatches(stage, pane) {
     if (!ofPane(layer) && !(layer.name === 'edge-kinds' && kindsInPlane)) continue;
     layer.swatch.forEach(([what, colour, shape], i) => {
       let text = what;
-      if (layer.name === 'umbilics') text = count(surface.arrays.umbilic_wedge.filter((w) => (w ? 0 : 1) === i).length, what);
+      if (layer.name === 'umbilics')
+        text = count(surface.arrays.umbilic_wedge.filter((w) => (w ? 0 : 1) === i).length, what);
       if (layer.name === 'samples') text = count(surface.arrays.sample_faces.length, what);
       if (layer.name === 'min-lines' || layer.name === 'max-lines') {
         const kind = layer.name === 'min-lines' ? 0 : 1;
-        text = count(Array.from({ length: surface.lineCount }, (_, k) => k).filter((k) => surface.line(k).kind === kind).length, what);
+        text = count(
+          Array.from({ length: surface.lineCount }, (_, k) => k).filter((k) => surface.line(k).kind === kind).length,
+          what,
+        );
       }
       if (layer.name === 'border') text = count(surface.arrays.border.length / 3, 'border edges');
       if (layer.name === 'features') text = count(surface.arrays.features.length / 3, 'feature edges');
-      if (layer.name === 'edge-kinds') text = count(result.arrays.edge_kind.filter((k) => k === i).length, `${what} edges`);
+      if (layer.name === 'edge-kinds')
+        text = count(result.arrays.edge_kind.filter((k) => k === i).length, `${what} edges`);
       if (layer.name === 'origins') text = count(result.arrays.origin.filter((o) => o === i).length, what);
       if (!text.endsWith('(0)')) out.push([text, colour, shape]);
     });
@@ -125,8 +130,10 @@ export function drawLabels(context, stage, pane, box, height) {
   context.font = `bold ${font}`;
   context.fillStyle = '#1c2126';
   const { surface, result } = stage;
-  const size = pane === 'result' || pane === 'overlay' ? `${result.faceCount} polygons` : `${surface.faceCount} triangles`;
-  const name = pane === 'overlay' ? `${result.name} over ${surface.name}` : pane === 'result' ? result.name : surface.name;
+  const size =
+    pane === 'result' || pane === 'overlay' ? `${result.faceCount} polygons` : `${surface.faceCount} triangles`;
+  const name =
+    pane === 'overlay' ? `${result.name} over ${surface.name}` : pane === 'result' ? result.name : surface.name;
   context.fillText(`${titles[pane]}`, box.x + 10, box.y + 16);
   const after = box.x + 18 + context.measureText(titles[pane]).width;
   context.font = font;

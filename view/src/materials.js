@@ -1,7 +1,16 @@
 // How things are drawn: shaded faces, lines some pixels wide, dots. Lines and dots are moved towards the eye by `bias` (in units of the
 // scene, whose diagonal is 1), so that what lies on the surface is not half hidden by it.
 import {
-  BufferAttribute, BufferGeometry, DoubleSide, GLSL3, InterleavedBuffer, InterleavedBufferAttribute, Mesh, RawShaderMaterial, Points, Vector2,
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  GLSL3,
+  InterleavedBuffer,
+  InterleavedBufferAttribute,
+  Mesh,
+  RawShaderMaterial,
+  Points,
+  Vector2,
 } from 'three';
 
 /** Of all cameras: the eye is depth/2 from the middle of the scene. */
@@ -46,7 +55,10 @@ export function segmentsOf(segments, { colour, colours, width = 1.6, bias = 0.00
   for (let i = 0; i < count; ++i) {
     for (let k = 0; k < 4; ++k) ends.set(segments.subarray(6 * i, 6 * i + 6), 24 * i + 6 * k);
     corners.set([-1, -1, 1, -1, 1, 1, -1, 1], 8 * i);
-    index.set([0, 1, 2, 0, 2, 3].map((k) => 4 * i + k), 6 * i);
+    index.set(
+      [0, 1, 2, 0, 2, 3].map((k) => 4 * i + k),
+      6 * i,
+    );
   }
   const geometry = new BufferGeometry();
   const buffer = new InterleavedBuffer(ends, 6);
@@ -62,7 +74,12 @@ export function segmentsOf(segments, { colour, colours, width = 1.6, bias = 0.00
   const material = new RawShaderMaterial({
     glslVersion: GLSL3,
     side: DoubleSide,
-    uniforms: { viewport: { value: new Vector2(1, 1) }, width: { value: width }, bias: { value: bias }, tint: { value: (colour ?? [0, 0, 0]).map((x) => x / 255) } },
+    uniforms: {
+      viewport: { value: new Vector2(1, 1) },
+      width: { value: width },
+      bias: { value: bias },
+      tint: { value: (colour ?? [0, 0, 0]).map((x) => x / 255) },
+    },
     vertexShader: `${head} uniform vec2 viewport; uniform float width; in vec3 position, end; in vec2 corner;
       ${colours ? 'in vec3 colour;' : 'uniform vec3 tint;'} out vec3 c;
       void main() {

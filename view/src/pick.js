@@ -5,15 +5,25 @@ export function firstTriangle(points, o, d) {
   let best = null;
   let nearest = Infinity;
   for (let t = 0; t < points.length; t += 9) {
-    const ex = points[t + 3] - points[t], ey = points[t + 4] - points[t + 1], ez = points[t + 5] - points[t + 2];
-    const fx = points[t + 6] - points[t], fy = points[t + 7] - points[t + 1], fz = points[t + 8] - points[t + 2];
-    const px = d[1] * fz - d[2] * fy, py = d[2] * fx - d[0] * fz, pz = d[0] * fy - d[1] * fx;
+    const ex = points[t + 3] - points[t],
+      ey = points[t + 4] - points[t + 1],
+      ez = points[t + 5] - points[t + 2];
+    const fx = points[t + 6] - points[t],
+      fy = points[t + 7] - points[t + 1],
+      fz = points[t + 8] - points[t + 2];
+    const px = d[1] * fz - d[2] * fy,
+      py = d[2] * fx - d[0] * fz,
+      pz = d[0] * fy - d[1] * fx;
     const det = ex * px + ey * py + ez * pz;
     if (det === 0) continue;
-    const sx = o[0] - points[t], sy = o[1] - points[t + 1], sz = o[2] - points[t + 2];
+    const sx = o[0] - points[t],
+      sy = o[1] - points[t + 1],
+      sz = o[2] - points[t + 2];
     const b = (sx * px + sy * py + sz * pz) / det;
     if (b < 0 || b > 1) continue;
-    const qx = sy * ez - sz * ey, qy = sz * ex - sx * ez, qz = sx * ey - sy * ex;
+    const qx = sy * ez - sz * ey,
+      qy = sz * ex - sx * ez,
+      qz = sx * ey - sy * ex;
     const c = (d[0] * qx + d[1] * qy + d[2] * qz) / det;
     if (c < 0 || b + c > 1) continue;
     const distance = (fx * qx + fy * qy + fz * qz) / det;
@@ -40,7 +50,8 @@ export function nearestSegment(segments, point, radius) {
     }
     const t = ee > 0 ? Math.min(Math.max(se / ee, 0), 1) : 0;
     let distance = 0;
-    for (let c = 0; c < 3; ++c) distance += (segments[i + c] + t * (segments[i + 3 + c] - segments[i + c]) - point[c]) ** 2;
+    for (let c = 0; c < 3; ++c)
+      distance += (segments[i + c] + t * (segments[i + 3 + c] - segments[i + c]) - point[c]) ** 2;
     if (distance < least) {
       least = distance;
       best = i / 6;

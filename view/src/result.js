@@ -50,8 +50,14 @@ export class Result {
   #cut(p) {
     if (p.length === 3) return [[...p]];
     if (p.length === 4) {
-      const along02 = [[p[0], p[1], p[2]], [p[0], p[2], p[3]]];
-      const along13 = [[p[1], p[2], p[3]], [p[1], p[3], p[0]]];
+      const along02 = [
+        [p[0], p[1], p[2]],
+        [p[0], p[2], p[3]],
+      ];
+      const along13 = [
+        [p[1], p[2], p[3]],
+        [p[1], p[3], p[0]],
+      ];
       const turned = (cut) => dot(this.triangle(...cut[0]), this.triangle(...cut[1])) < 0;
       if (turned(along02) !== turned(along13)) return turned(along02) ? along13 : along02;
       const length = (a, b) => Math.hypot(...sub(this.points, a, b));

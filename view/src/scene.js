@@ -34,7 +34,10 @@ export class Stage {
     this.result = result;
     this.scenes = Object.fromEntries(['space', 'plane', 'result', 'over'].map((name) => [name, new Scene()]));
     for (const scene of Object.values(this.scenes)) scene.background = null;
-    this.scenes.space.background = this.scenes.plane.background = this.scenes.result.background = new Color(colours.background);
+    this.scenes.space.background =
+      this.scenes.plane.background =
+      this.scenes.result.background =
+        new Color(colours.background);
     this.made = new Map();
     this.ranges = {};
     if (surface) {
@@ -69,7 +72,9 @@ export class Stage {
     if (on) this.on.add(name);
     else this.on.delete(name);
     if (layer.field) {
-      if (on) for (const other of layers) if (other.field && other.group === layer.group && other !== layer) this.on.delete(other.name);
+      if (on)
+        for (const other of layers)
+          if (other.field && other.group === layer.group && other !== layer) this.on.delete(other.name);
       if (layer.of === 'surface') this.colourSurface();
       else this.colourResult();
     } else this.#show(layer);
@@ -142,7 +147,8 @@ export class Stage {
     const kinds = this.isOn('edge-kinds');
     const objects = this.made.get(layer.name);
     if (layer.name === 'polygons') for (const object of objects) object.visible = wanted && !kinds;
-    if (layer.name === 'plane-polygons' && objects.length === 2) objects.forEach((object, i) => (object.visible = wanted && kinds === (i === 1)));
+    if (layer.name === 'plane-polygons' && objects.length === 2)
+      objects.forEach((object, i) => (object.visible = wanted && kinds === (i === 1)));
   }
 
   #make(layer) {
@@ -154,7 +160,8 @@ export class Stage {
     if (layer.name === 'plane-polygons') {
       if (!this.planeOfResult) return objects;
       put('plane', layerOf.polygons.draw(this.result, this.planeOfResult, 0.01));
-      if (this.result.arrays.edge_kind) put('plane', layerOf['edge-kinds'].draw(this.result, this.planeOfResult, 0.012));
+      if (this.result.arrays.edge_kind)
+        put('plane', layerOf['edge-kinds'].draw(this.result, this.planeOfResult, 0.012));
     } else if (layer.draw && layer.of === 'surface') {
       put('space', layer.draw(this.surface, 'space'));
       if (this.surface.planePoints) put('plane', layer.draw(this.surface, 'plane'));

@@ -67,7 +67,14 @@ export class Surface {
   line(i) {
     const t = this.arrays.line_table;
     const end = 5 * (i + 1) < t.length ? t[5 * (i + 1) + 4] : this.arrays.line_faces.length;
-    return { kind: t[5 * i], closed: t[5 * i + 1] === 1, begin: t[5 * i + 2], end: t[5 * i + 3], first: t[5 * i + 4], last: end };
+    return {
+      kind: t[5 * i],
+      closed: t[5 * i + 1] === 1,
+      begin: t[5 * i + 2],
+      end: t[5 * i + 3],
+      first: t[5 * i + 4],
+      last: end,
+    };
   }
 
   get lineCount() {

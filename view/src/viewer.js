@@ -17,7 +17,11 @@ export class Viewer {
     this.drawing = drawing;
     this.labels = labels;
     this.describer = new Describer(header);
-    this.renderer = new WebGLRenderer({ canvas: drawing, antialias: true, preserveDrawingBuffer: Boolean(header.picture) });
+    this.renderer = new WebGLRenderer({
+      canvas: drawing,
+      antialias: true,
+      preserveDrawingBuffer: Boolean(header.picture),
+    });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.autoClear = false;
     this.renderer.sortObjects = false; // depth decides
@@ -47,8 +51,18 @@ export class Viewer {
     // On a page the legend's room is fixed, so that switching a layer moves nothing; a longer legend covers a little of the drawing.
     const legend = this.header.picture ? needed : pageLegend;
     return on.map((name, i) => {
-      const box = { x: i * width, y: 0, width: i === on.length - 1 ? this.width - i * width : width - 1, height: this.height };
-      return { name, box, legend: Math.max(legend, needed), inner: { x: box.x, y: titleHeight, width: box.width, height: Math.max(this.height - titleHeight - legend, 1) } };
+      const box = {
+        x: i * width,
+        y: 0,
+        width: i === on.length - 1 ? this.width - i * width : width - 1,
+        height: this.height,
+      };
+      return {
+        name,
+        box,
+        legend: Math.max(legend, needed),
+        inner: { x: box.x, y: titleHeight, width: box.width, height: Math.max(this.height - titleHeight - legend, 1) },
+      };
     });
   }
 
@@ -76,7 +90,10 @@ export class Viewer {
     const panes = this.panes();
     if (!panes.length) return;
     orientation.copy(kept);
-    this.space.fit(this.stage.surface?.points ?? this.stage.result.points, Math.min(...panes.map((p) => p.inner.width / p.inner.height)));
+    this.space.fit(
+      this.stage.surface?.points ?? this.stage.result.points,
+      Math.min(...panes.map((p) => p.inner.width / p.inner.height)),
+    );
   }
 
   viewOf(pane) {
@@ -98,7 +115,9 @@ export class Viewer {
       renderer.setViewport(x, this.height - y - height, width, height);
       renderer.setScissor(x, this.height - y - height, width, height);
       const camera = this.viewOf(pane).at(width / height);
-      for (const name of { surface: ['space'], plane: ['plane'], result: ['result'], overlay: ['space', 'over'] }[pane.name]) {
+      for (const name of { surface: ['space'], plane: ['plane'], result: ['result'], overlay: ['space', 'over'] }[
+        pane.name
+      ]) {
         const scene = stage.scenes[name];
         scene.traverse((object) => {
           object.material?.uniforms?.viewport?.value.set(width, height);
@@ -126,7 +145,9 @@ export class Viewer {
   }
 
   paneAt(x, y) {
-    return this.panes().find(({ inner }) => x >= inner.x && x < inner.x + inner.width && y >= inner.y && y < inner.y + inner.height);
+    return this.panes().find(
+      ({ inner }) => x >= inner.x && x < inner.x + inner.width && y >= inner.y && y < inner.y + inner.height,
+    );
   }
 
   /** What is under a point of the canvas. */
@@ -137,17 +158,29 @@ export class Viewer {
     const { inner } = pane;
     const view = this.viewOf(pane);
     const camera = view.at(inner.width / inner.height);
-    const on = new Vector3(((x - inner.x) / inner.width) * 2 - 1, 1 - ((y - inner.y) / inner.height) * 2, -1).unproject(camera);
+    const on = new Vector3(((x - inner.x) / inner.width) * 2 - 1, 1 - ((y - inner.y) / inner.height) * 2, -1).unproject(
+      camera,
+    );
     const along = new Vector3(0, 0, -1).applyQuaternion(view.orientation);
     const radius = (pickRadius * 2 * view.halfHeight) / inner.height;
     const scene = { surface: 'space', plane: 'plane', result: 'result', overlay: 'space' }[pane.name];
-    const points = { space: stage.surface?.corners.space, plane: stage.surface?.corners.plane, result: stage.result?.cornerPoints }[scene];
+    const points = {
+      space: stage.surface?.corners.space,
+      plane: stage.surface?.corners.plane,
+      result: stage.result?.cornerPoints,
+    }[scene];
     const hit = firstTriangle(points, on.toArray(), along.toArray());
     let things = [];
     if (hit) {
-      things = scene === 'result' ? this.describer.result(stage, hit, radius) : this.describer.surface(stage, scene, hit, radius);
+      things =
+        scene === 'result'
+          ? this.describer.result(stage, hit, radius)
+          : this.describer.surface(stage, scene, hit, radius);
     }
-    stage.mark(scene, things.flatMap((thing) => [...(thing.marks ?? [])]));
+    stage.mark(
+      scene,
+      things.flatMap((thing) => [...(thing.marks ?? [])]),
+    );
     this.onPick(pane.name, things);
     this.soon();
   }
@@ -183,15 +216,24 @@ export class Viewer {
     });
     drawing.addEventListener('pointercancel', () => (from = null));
     drawing.addEventListener('contextmenu', (event) => event.preventDefault());
-    drawing.addEventListener('wheel', (event) => {
-      const [x, y] = local(event);
-      const pane = this.paneAt(x, y);
-      if (!pane) return;
-      event.preventDefault();
-      const { inner } = pane;
-      this.viewOf(pane).grow(Math.exp(-event.deltaY / 500), ((x - inner.x) / inner.width) * 2 - 1, 1 - ((y - inner.y) / inner.height) * 2, inner.width / inner.height);
-      this.soon();
-    }, { passive: false });
+    drawing.addEventListener(
+      'wheel',
+      (event) => {
+        const [x, y] = local(event);
+        const pane = this.paneAt(x, y);
+        if (!pane) return;
+        event.preventDefault();
+        const { inner } = pane;
+        this.viewOf(pane).grow(
+          Math.exp(-event.deltaY / 500),
+          ((x - inner.x) / inner.width) * 2 - 1,
+          1 - ((y - inner.y) / inner.height) * 2,
+          inner.width / inner.height,
+        );
+        this.soon();
+      },
+      { passive: false },
+    );
     drawing.addEventListener('dblclick', () => {
       this.fit();
       this.soon();
