@@ -158,7 +158,15 @@ bool acceptable(const RegionCorners& region, const Piece& piece, const Partition
   return !options.convex || PolygonJudge::is_convex(positions_of(region, piece));
 }
 
-// Triangles where nothing better works: ears of the polygon in the plane, widest first.
+// Small enough pieces for the search: convex ones where CGAL's partition finds them.
+std::vector<Piece> cut_up(const RegionCorners& region) {
+  const auto pieces =
+      convex_partition({region.uv.begin(), region.uv.begin() + static_cast<std::ptrdiff_t>(region.loop)});
+  return pieces.empty() ? cut_ears(region) : pieces;
+}
+
+}  // namespace
+
 std::vector<Piece> cut_ears(const RegionCorners& region) {
   Piece ring(region.loop);
   for (size_t i = 0; i < ring.size(); ++i) ring[i] = static_cast<int>(i);
@@ -187,15 +195,6 @@ std::vector<Piece> cut_ears(const RegionCorners& region) {
   triangles.push_back(ring);
   return triangles;
 }
-
-// Small enough pieces for the search: convex ones where CGAL's partition finds them.
-std::vector<Piece> cut_up(const RegionCorners& region) {
-  const auto pieces =
-      convex_partition({region.uv.begin(), region.uv.begin() + static_cast<std::ptrdiff_t>(region.loop)});
-  return pieces.empty() ? cut_ears(region) : pieces;
-}
-
-}  // namespace
 
 std::vector<Piece> best_partition(const RegionCorners& region, const PolygonJudge& judge, bool quads) {
   return Partition(region, judge, quads).run();

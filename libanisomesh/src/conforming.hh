@@ -21,6 +21,9 @@ std::vector<std::vector<int>> partition_region(const RegionCorners& region, cons
 std::vector<std::vector<int>> best_partition(const RegionCorners& region, const PolygonJudge& judge,
                                              bool quads);
 
+/// Cuts the loop into triangles: ears of the polygon in the plane, widest first.
+std::vector<std::vector<int>> cut_ears(const RegionCorners& region);
+
 /// Joins triangles to polygons over their common edges, best first; for regions that are not simple, where a
 /// corner occurs once although the border passes it more than once.
 std::vector<std::vector<int>> join_triangles(const RegionCorners& region,

@@ -264,6 +264,7 @@ size_t Decimator::contract_short_edges() {
   std::vector<std::pair<double, int>> candidates;
   const auto is_short = [&](int e) {
     const auto& edge = graph_.edge(e);
+    if (!network_.planar && length(e) < options_.least_length) return true;
     const double before = continuation(e, edge.node[0]), after = continuation(e, edge.node[1]);
     const double reference = before > 0 && after > 0 ? std::min(before, after) : std::max(before, after);
     return length(e) < options_.merge_fraction * reference;

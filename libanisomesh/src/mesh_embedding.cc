@@ -17,10 +17,12 @@ using OpenMesh::VertexHandle;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-constexpr double least_cosine = 0.3;  // to the normal that the triangle had before
-constexpr double least_shape = 0.02;  // twice the area over the square of the longest side
-constexpr double least_area = 1e-7;   // likewise, where a triangle must only not be turned over
+constexpr double least_cosine = 0.3;   // to the normal that the triangle had before
+constexpr double turned_cosine = 0.1;  // to the surface: below it a triangle counts as turned over
+constexpr double least_shape = 0.02;   // twice the area over the square of the longest side
+constexpr double least_area = 1e-7;    // likewise, where a triangle must only not be turned over
 constexpr double pi = 3.14159265358979323846;
+constexpr double least_weight = 0.01;  // what is pinned stays clear of the sides
 constexpr int flip_passes = 20;
 double cross2(const Vec2d& a, const Vec2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
@@ -29,7 +31,7 @@ constexpr size_t nearest_tried = 6;  // neighbours that a vertex may be moved to
 }  // namespace
 
 MeshEmbedding::MeshEmbedding(const SurfaceRef& surface, const Overlay& overlay, const NetworkGraph& network)
-    : vertices_(static_cast<int>(surface.points().size())) {
+    : node_normals_(network.normals), vertices_(static_cast<int>(surface.points().size())) {
   mesh_.reserve(overlay.points.size(), 3 * overlay.points.size(), overlay.triangles.size());
   for (const Vec3d& p : network.positions) mesh_.add_vertex(p);
   for (size_t t = 0; t < overlay.triangles.size(); ++t) {
@@ -146,7 +148,7 @@ void MeshEmbedding::pin_again(VertexHandle keep) {
     }
     if (!best && !candidates.empty()) best = &candidates.front();
     if (!best) continue;
-    best_weights.maximize(Vec3d(0, 0, 0));
+    best_weights.maximize(Vec3d(1, 1, 1) * least_weight);
     pinned_[at(best->face.idx())].push_back({x.vertex, best_weights / (best_weights | Vec3d(1, 1, 1))});
   }
 }
@@ -272,11 +274,32 @@ void MeshEmbedding::drop(int node) {
 bool MeshEmbedding::take_out(VertexHandle v, Care care) {
   std::vector<std::pair<double, VertexHandle>> near;
   for (const auto w : mesh_.vv_range(v)) near.emplace_back((mesh_.point(w) - mesh_.point(v)).sqrnorm(), w);
+  if (care == Care::topology)  // something will be turned over: as little as can be
+    for (auto& [key, w] : near) key = -lowest_cosine(v, w);
   std::sort(near.begin(), near.end());
   const size_t tried = care == Care::topology ? near.size() : std::min(near.size(), nearest_tried);
   for (size_t i = 0; i < tried; ++i)
     if (collapse(v, near[i].second, care)) return true;
   return false;
+}
+
+double MeshEmbedding::cosine_to_surface(VertexHandle a, VertexHandle b, VertexHandle c) const {
+  const Vec3d normal = cross(mesh_.point(b) - mesh_.point(a), mesh_.point(c) - mesh_.point(a));
+  const Vec3d surface = node_normals_[at(a.idx())] + node_normals_[at(b.idx())] + node_normals_[at(c.idx())];
+  const double lengths = normal.norm() * surface.norm();
+  return lengths > 0 ? (normal | surface) / lengths : 0;
+}
+
+// Of the triangles that moving a vertex to another would leave, to the normals of the surface.
+double MeshEmbedding::lowest_cosine(VertexHandle gone, VertexHandle keep) const {
+  double lowest = 1;
+  for (const auto out : mesh_.voh_range(gone)) {
+    if (mesh_.is_boundary(out)) continue;
+    const VertexHandle a = mesh_.to_vertex_handle(out),
+                       b = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(out));
+    if (a != keep && b != keep) lowest = std::min(lowest, cosine_to_surface(keep, a, b));
+  }
+  return lowest;
 }
 
 // In passes that leave the neighbours of what went alone, so that the triangles stay of like size.
@@ -350,9 +373,6 @@ void MeshEmbedding::flip(const NetworkGraph& network) {
     const Vec3d u = mesh_.point(a) - mesh_.point(apex), v = mesh_.point(b) - mesh_.point(apex);
     return std::atan2(cross(u, v).norm(), u | v);
   };
-  const auto normal = [this](VertexHandle a, VertexHandle b, VertexHandle c) {
-    return cross(mesh_.point(b) - mesh_.point(a), mesh_.point(c) - mesh_.point(a));
-  };
   bool changed = true;
   for (int pass = 0; changed && pass < flip_passes; ++pass) {
     changed = false;
@@ -363,10 +383,11 @@ void MeshEmbedding::flip(const NetworkGraph& network) {
       const VertexHandle c = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)),
                          d = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(o));
       if (network.graph.find_edge(a.idx(), b.idx()) >= 0) continue;
-      if (angle(c, a, b) + angle(d, a, b) <= pi + 1e-6 || !mesh_.is_flip_ok(e)) continue;
-      const Vec3d n1 = normal(a, d, c), n2 = normal(d, b, c);
-      const Vec3d before = normal(a, b, c) + normal(b, a, d);
-      if (!((n1 | before) > 0 && (n2 | before) > 0)) continue;
+      const double now = std::min(cosine_to_surface(a, b, c), cosine_to_surface(b, a, d));
+      const bool wanted = now <= turned_cosine || angle(c, a, b) + angle(d, a, b) > pi + 1e-6;
+      if (!wanted || !mesh_.is_flip_ok(e)) continue;
+      const double then = std::min(cosine_to_surface(a, d, c), cosine_to_surface(d, b, c));
+      if (now <= turned_cosine ? then <= now + 1e-6 : then <= turned_cosine) continue;
       flip_edge(e);
       changed = true;
     }

@@ -67,12 +67,16 @@ class MeshEmbedding final : public Embedding {
   bool collapse(OpenMesh::VertexHandle gone, OpenMesh::VertexHandle keep, Care care);
   bool is_topology_kept(OpenMesh::HalfedgeHandle h);
   bool is_shape_kept(OpenMesh::HalfedgeHandle h, Care care) const;
+  double cosine_to_surface(OpenMesh::VertexHandle a, OpenMesh::VertexHandle b,
+                           OpenMesh::VertexHandle c) const;
+  double lowest_cosine(OpenMesh::VertexHandle gone, OpenMesh::VertexHandle keep) const;
   bool cut_corner(OpenMesh::VertexHandle a, OpenMesh::VertexHandle node, OpenMesh::VertexHandle b);
   void flip_edge(OpenMesh::EdgeHandle e);
   bool take_out(OpenMesh::VertexHandle v, Care care);
 
   OverlayMesh mesh_;
   std::vector<Vec3d> normals_;               ///< of each triangle, unit
+  std::vector<Vec3d> node_normals_;          ///< of the surface
   std::vector<std::vector<Pinned>> pinned_;  ///< in each triangle
   int vertices_;                             ///< of the surface; the first nodes
   FlatStar star_;                            ///< only during a collapse

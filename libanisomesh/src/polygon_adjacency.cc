@@ -90,7 +90,7 @@ RegionCorners PolygonAdjacency::around(const std::vector<Polygon>& polygons, con
     corners.normal +=
         cross(corners.position[i] - corners.position[0], corners.position[i + 1] - corners.position[0]);
   if (!network.planar) {
-    lay_out(corners, {});
+    lay_out(corners);
     forbid_other_sides(corners, polygons, path);
   }
   return corners;

@@ -34,7 +34,7 @@ class Extractor {
   }
 
  private:
-  Region region_of(const Cell& cell) const;
+  Region region_of(const Cell& cell, const std::vector<std::array<int, 2>>& taken = {}) const;
   void settle_chords(const std::vector<Cell>& cells, std::vector<Region>& regions,
                      std::vector<RegionPolygons>& results) const;
   void set_normal(const Cell& cell, Vec3d& normal) const;
@@ -86,7 +86,8 @@ void Extractor::set_normal(const Cell& cell, Vec3d& normal) const {
   if (length > 0) normal /= length;
 }
 
-Region Extractor::region_of(const Cell& cell) const {
+// \param taken pairs of corners that another cell has joined
+Region Extractor::region_of(const Cell& cell, const std::vector<std::array<int, 2>>& taken) const {
   Region region;
   const std::vector<int> loop = border_of(cell, region.simple);
   for (const int n : loop) region.corners.add(network_, n);
@@ -113,11 +114,13 @@ Region Extractor::region_of(const Cell& cell) const {
   region.probes = cell.probes;
   set_normal(cell, region.corners.normal);
   if (!network_.planar) {
-    lay_out(region);
     const auto corner = [&](int n) {
       return (*std::lower_bound(index.begin(), index.end(), std::array<int, 2>{n, -1}))[1];
     };
     for (const auto& pair : cell.forbidden) region.corners.forbid(corner(pair[0]), corner(pair[1]));
+    for (const auto& pair : taken) region.corners.forbid(pair[0], pair[1]);
+    region.on_surface = true;
+    lay_out(region);
   }
   return region;
 }
@@ -145,8 +148,7 @@ void Extractor::settle_chords(const std::vector<Cell>& cells, std::vector<Region
           if (taken.count(chords.back()) > 0) wrong.push_back({a, b});
         }
       if (wrong.size() == known) break;
-      regions[c] = region_of(cells[c]);
-      for (const Chord& chord : wrong) regions[c].corners.forbid(chord[0], chord[1]);
+      regions[c] = region_of(cells[c], wrong);
       results[c] = mesh_region(regions[c], judge_, options_);
     }
     taken.insert(chords.begin(), chords.end());

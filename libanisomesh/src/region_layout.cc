@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conforming.hh"
+
 namespace anisomesh::detail {
 
 namespace {
@@ -11,7 +13,8 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 constexpr double pi = 3.14159265358979323846;
 constexpr int tutte_rounds = 200;
-constexpr double least_turn = 1e-3;  // of a projected triangle: twice its area over the squared longest side
+constexpr double least_cosine = 0.7;  // of the surface at a corner to the region's normal
+constexpr double least_turn = 1e-3;   // of a projected triangle: twice its area over the squared longest side
 
 double turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -88,16 +91,44 @@ void spread_on_circle(RegionCorners& corners, const std::vector<std::array<int, 
 
 }  // namespace
 
-void lay_out(RegionCorners& corners, const std::vector<std::array<int, 3>>& triangles) {
+void project(RegionCorners& corners) {
   const Projection projection(corners);
   for (size_t i = 0; i < corners.size(); ++i) corners.uv[i] = projection(corners.position[i]);
-  if (triangles.empty() ? is_simple(corners) : is_unfolded(corners, triangles)) return;
-  spread_on_circle(corners, triangles);
+}
+
+void lay_out(RegionCorners& corners) {
+  project(corners);
+  if (!is_simple(corners)) spread_on_circle(corners, {});
+}
+
+// Other triangles with the same corners, that are drawn without folds. Where the surface turns away, what
+// lies between the corners would not be drawn between them.
+bool cut_anew(Region& region) {
+  const RegionCorners& corners = region.corners;
+  if (region.isotropic > 0 || !is_simple(corners)) return false;
+  for (const Vec3d& n : corners.corner_normal)
+    if (n.sqrnorm() > 0 && (n | corners.normal) < least_cosine) return false;
+  std::vector<std::array<int, 3>> triangles;
+  for (const auto& t : cut_ears(region.corners)) {
+    triangles.push_back({t[0], t[1], t[2]});
+    for (size_t k = 0; k < 3; ++k)
+      if (region.corners.is_forbidden(t[k], t[(k + 1) % 3])) return false;
+  }
+  region.triangles = std::move(triangles);
+  return true;
 }
 
 void lay_out(Region& region) {
-  lay_out(region.corners, region.triangles);
+  project(region.corners);
   const auto& uv = region.corners.uv;
+  if (!is_unfolded(region.corners, region.triangles)) {
+    if (cut_anew(region)) {
+      const Projection projection(region.corners);
+      for (Probe& probe : region.probes) probe.uv = projection(probe.position);
+      return;
+    }
+    spread_on_circle(region.corners, region.triangles);
+  }
   for (Probe& probe : region.probes) {
     const auto& t = region.triangles[at(probe.triangle)];
     probe.uv = probe.barycentric[0] * uv[at(t[0])] + probe.barycentric[1] * uv[at(t[1])] +

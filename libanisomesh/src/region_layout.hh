@@ -10,13 +10,13 @@
 
 namespace anisomesh::detail {
 
-/// Writes `uv` of all corners: their projection along the region's normal where that turns none of the
-/// triangles over, and otherwise the loop on a circle with the other corners between their neighbours (Tutte
-/// 1963), which is a drawing without folds for any region that is a disc.
-/// \param triangles of the corners, by index; none: the loop alone must not cross itself
-void lay_out(RegionCorners& corners, const std::vector<std::array<int, 3>>& triangles);
+/// Writes `uv` of the corners around some polygons: their projection along the normal where the loop does not
+/// cross itself in it, and otherwise the loop on a circle.
+void lay_out(RegionCorners& corners);
 
-/// Writes `uv` of the corners of a region and of its probes.
+/// Writes `uv` of the corners and probes of a region: their projection where that turns none of the triangles
+/// over, or at least leaves the loop simple, which then gets other triangles; otherwise the loop on a circle
+/// with the other corners between their neighbours (Tutte 1963), a drawing without folds for any disc.
 void lay_out(Region& region);
 
 }  // namespace anisomesh::detail

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "numerics/bvh.hh"
 #include "numerics/small_triangulation.hh"
 
 namespace anisomesh::detail {
@@ -54,6 +55,16 @@ double RegionMesher::distance(const Probe& probe, int a, int b, int c) const {
 }
 
 double RegionMesher::distance(const Probe& probe, const std::vector<std::array<int, 3>>& triangles) const {
+  if (region_.on_surface) {  // by what is nearest in space: (u, v) is too coarse a guess
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& t : triangles) {
+      const Vec3d &p = corners_.position[at(t[0])], &q = corners_.position[at(t[1])],
+                  &r = corners_.position[at(t[2])];
+      const Vec3d b = closest_barycentric(probe.position, p, q, r);
+      least = std::min(least, (b[0] * p + b[1] * q + b[2] * r - probe.position).sqrnorm());
+    }
+    return std::sqrt(least);
+  }
   double best = -std::numeric_limits<double>::infinity(), result = 0;
   for (const auto& t : triangles) {
     const Vec2d &a = corners_.uv[at(t[0])], &b = corners_.uv[at(t[1])], &c = corners_.uv[at(t[2])];
@@ -114,8 +125,13 @@ bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& 
   const double size = edge_distance * std::sqrt(area);
   Probe* chosen = nullptr;
   for (Probe& probe : region_.probes) {
-    const auto& t = triangulation.triangles()[at(triangulation.locate(probe.uv))];
-    const double d = distance(probe, t[0], t[1], t[2]);
+    double d = 0;
+    if (region_.on_surface) {
+      d = distance(probe, triangulation.triangles());
+    } else {
+      const auto& t = triangulation.triangles()[at(triangulation.locate(probe.uv))];
+      d = distance(probe, t[0], t[1], t[2]);
+    }
     if (d <= options_.cell_tolerance) continue;
     const double weighted = d * std::min(1.0, border_distance(probe.position) / size);
     if (weighted <= worst) continue;
@@ -134,11 +150,10 @@ bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& 
     corners_.position.pop_back();
     corners_.face.pop_back();
     corners_.corner_normal.pop_back();
-    std::swap(*chosen, region_.probes.back());
-    region_.probes.pop_back();
-    return true;
+  } else {
+    result.added.push_back(chosen->point);
   }
-  result.added.push_back(chosen->point);
+  region_.probes.erase(region_.probes.begin() + (chosen - region_.probes.data()));
   return true;
 }
 

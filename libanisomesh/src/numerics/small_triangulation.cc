@@ -133,11 +133,14 @@ void SmallTriangulation::flip(int t, size_t k) {
 bool SmallTriangulation::insert(int corner) {
   const int t = locate(points_[at(corner)]);
   const std::array<int, 3> c = triangles_[at(t)], n = neighbors_[at(t)];
+  int edges = 0;
   for (size_t k = 0; k < 3; ++k) {
     const double side = turn(c[(k + 1) % 3], c[(k + 2) % 3], corner);
     const bool on_edge = side <= 1e-12 * turn(c[0], c[1], c[2]);
     if (on_edge && (side < 0 || n[k] < 0)) return false;
+    edges += on_edge;
   }
+  if (edges > 1) return false;  // on a corner
   const int second = static_cast<int>(triangles_.size()), third = second + 1;
   triangles_[at(t)] = {corner, c[1], c[2]};
   neighbors_[at(t)] = {n[0], second, third};
