@@ -23,10 +23,24 @@ SurfacePoint NearLocator::locate(const Vec2d&, const Vec3d& place, OpenMesh::Fac
   };
   consider(start.idx());
   if (!best.face.is_valid()) return {start, {1.0 / 3, 1.0 / 3, 1.0 / 3}};  // a face without area
-  for (int at = -1; at != best.face.idx();) {  // the distance falls with each round
-    at = best.face.idx();
-    for (const int v : mesh_.corners[static_cast<size_t>(at)])
-      for (int i = 0; i < mesh_.star_size(v); ++i) consider(mesh_.star_of(v)[i]);
+  // The nearest point of a face is inside it, or on a side across which there may be a nearer one, or it is a
+  // corner. The distance falls with each round.
+  for (bool nearer = true; nearer;) {
+    nearer = false;
+    const auto face = static_cast<size_t>(best.face.idx());
+    const Vec3d w = best.barycentric;
+    int zero = -1, one = -1;
+    for (int k = 0; k < 3; ++k) {
+      if (w[k] <= 0) zero = k;
+      if (w[k] >= 1) one = k;
+    }
+    if (one >= 0) {
+      const int v = mesh_.corners[face][static_cast<size_t>(one)];
+      for (int i = 0; i < mesh_.star_size(v); ++i) nearer |= consider(mesh_.star_of(v)[i]);
+    } else if (zero >= 0) {
+      const int across = mesh_.neighbours[face][static_cast<size_t>((zero + 1) % 3)];
+      if (across >= 0) nearer = consider(across);
+    }
   }
   return best;
 }

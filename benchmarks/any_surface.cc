@@ -1,0 +1,172 @@
+// Every mesh of libcgal-demo, of any topology: remeshed, compared, judged, or refused with a reason.
+//
+//   ANISOMESH_DATA=FOLDER any_surface [--target FACES] [--feature-angle DEGREES] [--domain auto|surface]
+//                                     [--largest TRIANGLES] [NAME...]
+//
+// Prints a markdown table, a row for each mesh, smallest first; the target is at most half the triangles of
+// the input. "Features" is the share of the length of the tagged edges that lies within 0.05 % of the
+// diagonal of an edge of the result. Then one line for each promise that a result breaks: the components,
+// Euler characteristic and border loops of the input, no folded, concave or degenerate face, nothing
+// non-manifold and no T-junctions that the input does not have, all features covered, faces within 10 % of
+// the target. Exits 1 if there is one, 77 if the meshes are not there. A refusal is none, and is listed with
+// its reason.
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "anisomesh/errors.hh"
+#include "anisomesh/features.hh"
+#include "anisomesh/properties.hh"
+#include "anisomesh/remesh.hh"
+#include "bench.hh"
+
+using namespace anisomesh;
+
+namespace {
+
+struct Settings {
+  size_t target = 2000, largest = 200000;
+  double feature_angle = 0;
+  Domain domain = Domain::automatic;
+};
+
+double distance_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
+  const Vec3d along = b - a;
+  const double t = std::clamp(((p - a) | along) / std::max(along.sqrnorm(), 1e-300), 0.0, 1.0);
+  return (p - a - t * along).norm();
+}
+
+// The share of the length of the tagged edges that edges of the result cover.
+double covered_features(const SurfaceRef& surface, const OpenMesh::PolyMesh& result) {
+  const auto& mesh = surface.connectivity();
+  std::vector<std::array<Vec3d, 2>> edges;
+  const auto kind = require_property(result, property::edge_kind);
+  for (const auto e : result.edges())
+    if (result.property(kind, e) == static_cast<int>(EdgeKind::feature))
+      edges.push_back({result.point(e.v0()), result.point(e.v1())});
+  const double near = 5e-4 * surface.diagonal();
+  double total = 0, covered = 0;
+  constexpr int samples = 4;
+  for (const auto e : mesh.edges()) {
+    if (!mesh.status(e).feature() || mesh.is_boundary(e)) continue;
+    const auto h = mesh.halfedge_handle(e, 0);
+    const Vec3d &a = surface.point(mesh.from_vertex_handle(h)), &b = surface.point(mesh.to_vertex_handle(h));
+    for (int i = 0; i < samples; ++i) {
+      const Vec3d p = a + (i + 0.5) / samples * (b - a);
+      total += (b - a).norm();
+      if (std::any_of(edges.begin(), edges.end(),
+                      [&](const auto& edge) { return distance_to_segment(p, edge[0], edge[1]) <= near; }))
+        covered += (b - a).norm();
+    }
+  }
+  return total > 0 ? covered / total : 1;
+}
+
+Comparison against_itself(OpenMesh::TriMesh& mesh) {
+  OpenMesh::PolyMesh same;
+  for (const auto v : mesh.vertices()) same.add_vertex(mesh.point(v));
+  for (const auto f : mesh.faces()) {
+    std::vector<OpenMesh::VertexHandle> corners;
+    for (const auto v : mesh.fv_range(f)) corners.push_back(v);
+    same.add_face(corners);
+  }
+  CompareOptions options;
+  options.samples = 1000;
+  return compare(mesh, same, options);
+}
+
+void judge(OpenMesh::TriMesh& mesh, const std::string& name, const Comparison& c, size_t target,
+           double features, const RemeshReport& report, bench::Bars& bars) {
+  const Comparison input = against_itself(mesh);
+  bars.check(c.same_topology, name + ": topology", false);
+  bars.check(c.folded_faces == 0, name + ": " + std::to_string(c.folded_faces) + " folded faces", false);
+  bars.check(c.concave_faces == 0, name + ": " + std::to_string(c.concave_faces) + " concave faces", false);
+  bars.check(c.degenerate_faces == 0, name + ": " + std::to_string(c.degenerate_faces) + " degenerate faces",
+             false);
+  bars.check(c.non_manifold_edges == 0 || input.non_manifold_edges > 0, name + ": non-manifold edges", false);
+  bars.check(c.non_manifold_vertices == 0 || input.non_manifold_vertices > 0,
+             name + ": non-manifold vertices", false);
+  bars.check(c.t_junctions == 0 || input.t_junctions > 0 || input.non_manifold_vertices > 0,
+             name + ": " + std::to_string(c.t_junctions) + " T-junctions", false);
+  bars.check(features > 0.999, name + ": features covered by " + bench::format("%.1f", 100 * features) + " %",
+             false);
+  bars.check(report.target_met,
+             name + ": " + std::to_string(c.faces) + " faces for " + std::to_string(target), false);
+}
+
+void run(const std::filesystem::path& path, const Settings& settings, bench::Bars& bars,
+         std::vector<std::string>& refusals) {
+  const std::string name = path.filename().string();
+  try {
+    auto mesh = read_surface(path.string());
+    if (mesh.n_faces() > settings.largest) return;
+    RemeshOptions options;
+    options.domain = settings.domain;
+    options.features.angle_degrees = settings.feature_angle;
+    options.target_faces = std::max<size_t>(4, std::min(settings.target, mesh.n_faces() / 2));
+    RemeshReport report;
+    auto result = remesh(mesh, options, &report);
+    CompareOptions compare_options;
+    compare_options.samples = 50000;
+    const Comparison c = compare(mesh, result, compare_options);
+    const double features = covered_features(mesh, result);
+    std::printf("| %s | %zu | %d | %zu | %zu | %.0f | %.4f | %.3f | %.1f | %zu | %.1f | %zu | %.2f |\n",
+                name.c_str(), mesh.n_faces(), c.euler_characteristic, c.faces, c.vertices,
+                100 * c.quad_fraction, 100 * c.two_sided.rms, 100 * c.two_sided.hausdorff,
+                c.mean_alignment_degrees, report.features.feature_edges, 100 * features, report.mesh.retries,
+                report.seconds);
+    std::fflush(stdout);
+    judge(mesh, name, c, options.target_faces, features, report, bars);
+  } catch (const std::exception& e) {
+    refusals.push_back(name + ": " + e.what());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  std::vector<std::string> names;
+  for (int i = 1; i < argc; ++i) {
+    const bool more = i + 1 < argc;
+    if (more && std::strcmp(argv[i], "--target") == 0)
+      settings.target = std::stoul(argv[++i]);
+    else if (more && std::strcmp(argv[i], "--feature-angle") == 0)
+      settings.feature_angle = std::stod(argv[++i]);
+    else if (more && std::strcmp(argv[i], "--largest") == 0)
+      settings.largest = std::stoul(argv[++i]);
+    else if (more && std::strcmp(argv[i], "--domain") == 0)
+      settings.domain = std::strcmp(argv[++i], "surface") == 0 ? Domain::surface : Domain::automatic;
+    else
+      names.emplace_back(argv[i]);
+  }
+  const char* folder = std::getenv("ANISOMESH_DATA");
+  if (!folder || !std::filesystem::is_directory(folder)) {
+    std::fprintf(stderr, "any_surface: set ANISOMESH_DATA to the unpacked data of libcgal-demo\n");
+    return 77;
+  }
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const auto ending = entry.path().extension();
+    if (ending != ".off" && ending != ".obj" && ending != ".stl" && ending != ".ply") continue;
+    if (names.empty() || std::find(names.begin(), names.end(), entry.path().filename()) != names.end())
+      paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end(), [](const auto& x, const auto& y) {
+    const auto a = std::filesystem::file_size(x), b = std::filesystem::file_size(y);
+    return a != b ? a < b : x < y;
+  });
+  std::printf(
+      "| mesh | triangles | Euler | faces | vertices | quads %% | RMS %% | Hausdorff %% | alignment | "
+      "feature "
+      "edges | covered %% | retries | seconds |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  bench::Bars bars;
+  std::vector<std::string> refusals;
+  for (const auto& path : paths) run(path, settings, bars, refusals);
+  std::printf("\n");
+  for (const std::string& reason : refusals) std::printf("refused: %s\n", reason.c_str());
+  return bars.missed() > 0 ? 1 : 0;
+}

@@ -1,0 +1,231 @@
+// Polygons on surfaces that are no discs, without a parameterization.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "anisomesh/compare.hh"
+#include "anisomesh/curvature.hh"
+#include "anisomesh/features.hh"
+#include "anisomesh/flatten.hh"
+#include "anisomesh/io.hh"
+#include "anisomesh/lines.hh"
+#include "anisomesh/properties.hh"
+#include "anisomesh/remesh.hh"
+#include "anisomesh/shapes.hh"
+#include "anisomesh/smoothing.hh"
+#include "anisomesh/umbilics.hh"
+#include "catch.hh"
+#include "data.hh"
+#include "overlay.hh"
+
+using namespace anisomesh;
+
+namespace {
+
+OpenMesh::TriMesh shape(const std::string& name, int vertices, bool irregular = true) {
+  ShapeOptions options;
+  options.vertices = vertices;
+  options.irregular = irregular;
+  return make_shape(name, options);
+}
+
+OpenMesh::PolyMesh remeshed(OpenMesh::TriMesh& mesh, size_t faces, double feature_angle = 0) {
+  RemeshOptions options;
+  options.domain = Domain::surface;
+  options.target_faces = faces;
+  options.features.angle_degrees = feature_angle;
+  RemeshReport report;
+  auto result = remesh(mesh, options, &report);
+  CHECK(report.target_met);
+  return result;
+}
+
+Comparison compared(OpenMesh::TriMesh& mesh, OpenMesh::PolyMesh& result) {
+  CompareOptions options;
+  options.samples = 20000;
+  return compare(mesh, result, options);
+}
+
+void check_sound(const Comparison& c) {
+  CHECK(c.same_topology);
+  CHECK(c.non_manifold_edges == 0);
+  CHECK(c.non_manifold_vertices == 0);
+  CHECK(c.t_junctions == 0);
+  CHECK(c.concave_faces == 0);
+  CHECK(c.degenerate_faces == 0);
+  CHECK(c.folded_faces == 0);
+}
+
+double area(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return 0.5 * cross(b - a, c - a).norm(); }
+
+}  // namespace
+
+TEST_CASE("the overlay divides the surface along every line and leaves its area and topology as they are") {
+  auto mesh = shape("torus", 1000);
+  const SurfaceRef surface(mesh);
+  estimate_curvature(surface);
+  smooth_tensors(surface);
+  find_umbilics(surface);
+  TraceOptions options;
+  options.density.epsilon_fraction = 0.003;
+  trace_lines(surface, options);
+  place_isotropic_samples(surface, options);
+  const LineNetwork lines = read_lines(surface);
+  REQUIRE(lines.lines.size() > 10);
+  const auto overlay = detail::overlay_lines(surface, lines, 45);
+
+  double sum = 0, whole = 0;
+  std::map<std::pair<int, int>, int> sides;
+  std::vector<char> used(overlay.points.size(), 0);
+  for (const auto& t : overlay.triangles) {
+    std::array<Vec3d, 3> p;
+    for (size_t k = 0; k < 3; ++k) {
+      p[k] = position(surface, overlay.points[static_cast<size_t>(t[k])]);
+      used[static_cast<size_t>(t[k])] = 1;
+      const int from = t[k], to = t[(k + 1) % 3];
+      ++sides[{from, to}];
+    }
+    sum += area(p[0], p[1], p[2]);
+  }
+  for (const auto f : mesh.faces()) {
+    const auto c = surface.corners(f);
+    whole += area(surface.point(c.vertex[0]), surface.point(c.vertex[1]), surface.point(c.vertex[2]));
+  }
+  CHECK(std::abs(sum - whole) < 1e-9 * whole);
+  for (const auto& [side, count] : sides) {
+    REQUIRE(count == 1);
+    REQUIRE(sides.count({side.second, side.first}) == 1);
+  }
+  const long vertices = std::count(used.begin(), used.end(), 1);
+  CHECK(vertices - static_cast<long>(sides.size() / 2) + static_cast<long>(overlay.triangles.size()) == 0);
+
+  // What was drawn is as long as the lines are, but for steps around a corner of the surface.
+  double drawn = 0, traced = 0;
+  for (const auto& e : overlay.edges) {
+    REQUIRE(sides.count({e.node[0], e.node[1]}) + sides.count({e.node[1], e.node[0]}) > 0);
+    drawn += (position(surface, overlay.points[static_cast<size_t>(e.node[0])]) -
+              position(surface, overlay.points[static_cast<size_t>(e.node[1])]))
+                 .norm();
+  }
+  for (const Line& line : lines.lines) {
+    for (size_t i = 0; i + 1 < line.points.size(); ++i)
+      traced += (position(surface, line.points[i + 1]) - position(surface, line.points[i])).norm();
+    if (line.closed)
+      traced += (position(surface, line.points.back()) - position(surface, line.points[0])).norm();
+  }
+  CHECK(drawn == Approx(traced).epsilon(0.01));
+  CHECK(overlay.crossings > 50);
+}
+
+TEST_CASE("closed shapes of every kind are remeshed in the surface domain") {
+  SECTION("a torus: no umbilics, nearly all quads") {
+    auto mesh = shape("torus", 5000);
+    auto result = remeshed(mesh, 1000);
+    const auto c = compared(mesh, result);
+    check_sound(c);
+    CHECK(c.euler_characteristic == 0);
+    CHECK(c.quad_fraction > 0.9);
+    CHECK(c.mean_alignment_degrees < 3);
+    CHECK(c.two_sided.rms < 0.001);
+  }
+  SECTION("an ellipsoid") {
+    auto mesh = shape("ellipsoid", 5000);
+    auto result = remeshed(mesh, 1000);
+    const auto c = compared(mesh, result);
+    check_sound(c);
+    CHECK(c.euler_characteristic == 2);
+    CHECK(c.quad_fraction > 0.9);
+    CHECK(c.two_sided.rms < 0.001);
+  }
+  SECTION("a sphere has no directions: triangles of one size") {
+    auto mesh = shape("sphere", 3000);
+    auto result = remeshed(mesh, 500);
+    const auto c = compared(mesh, result);
+    check_sound(c);
+    CHECK(c.quad_fraction < 0.2);
+    CHECK(c.two_sided.rms < 0.004);
+  }
+  SECTION("a cube with tagged edges is six quads") {
+    auto mesh = shape("cube", 2000, false);
+    RemeshOptions options;
+    options.features.angle_degrees = 40;
+    auto result = remesh(mesh, options);
+    const auto c = compared(mesh, result);
+    check_sound(c);
+    CHECK(c.faces == 6);
+    CHECK(c.quad_fraction == 1);
+    CHECK(c.two_sided.hausdorff < 1e-9);
+  }
+}
+
+TEST_CASE("the surface domain does on a disc what the plane does") {
+  const auto path = demo_mesh("lion-head.off");
+  if (!path) return skip("lion-head.off");
+  auto mesh = read_surface(*path);
+  RemeshOptions options;
+  options.target_vertices = 2000;
+  auto in_plane = remesh(mesh, options);
+  const auto plane = compared(mesh, in_plane);
+  options.domain = Domain::surface;
+  auto on_surface = remesh(mesh, options);
+  CHECK_FALSE(has_property(mesh, property::uv));
+  const auto surface = compared(mesh, on_surface);
+  check_sound(surface);
+  const double ratio = surface.two_sided.rms * static_cast<double>(surface.vertices) /
+                       (plane.two_sided.rms * static_cast<double>(plane.vertices));
+  CHECK(ratio < 1.08);
+  CHECK(surface.quad_fraction > plane.quad_fraction - 0.04);
+  CHECK(surface.mean_alignment_degrees < plane.mean_alignment_degrees + 0.7);
+}
+
+TEST_CASE("real surfaces of every topology keep it") {
+  struct Scan {
+    const char* name;
+    size_t faces;
+    double feature_angle;
+    double rms;  // fraction of the diagonal
+  };
+  // of genus 3, of genus 4 with features, in 26 pieces, with many borders, mechanical, scanned with a border
+  const std::vector<Scan> scans{{"elephant.off", 1500, 0, 0.0015}, {"anchor.off", 500, 40, 0.004},
+                                {"bones.off", 2000, 0, 0.002},     {"holes.off", 1500, 0, 0.0006},
+                                {"fandisk.off", 1500, 40, 0.0004}, {"pig.off", 450, 0, 0.004}};
+  for (const Scan& scan : scans) {
+    const auto path = demo_mesh(scan.name);
+    if (!path) return skip(scan.name);
+    INFO(scan.name);
+    auto mesh = read_surface(*path);
+    auto result = remeshed(mesh, scan.faces, scan.feature_angle);
+    const auto c = compared(mesh, result);
+    check_sound(c);
+    CHECK(c.two_sided.rms < scan.rms);
+  }
+}
+
+TEST_CASE(
+    "where the surface is, how large it is and how it is turned changes the result as little as rounding "
+    "does") {
+  const auto mesh = shape("ellipsoid", 2000);
+  RemeshOptions options;
+  options.domain = Domain::surface;
+  options.trace.density.epsilon_fraction = 0.003;
+  const auto remeshed_so = [&](OpenMesh::TriMesh copy, Comparison& c) {
+    auto result = remesh(copy, options);
+    c = compared(copy, result);
+    check_sound(c);
+  };
+  Comparison reference, c;
+  remeshed_so(mesh, reference);
+  const auto same = [&](const std::function<Vec3d(const Vec3d&)>& map, double tolerance) {
+    auto moved = mesh;
+    for (const auto v : moved.vertices()) moved.point(v) = map(moved.point(v));
+    remeshed_so(moved, c);
+    CHECK(static_cast<double>(c.faces) == Approx(static_cast<double>(reference.faces)).epsilon(tolerance));
+    CHECK(c.two_sided.rms == Approx(reference.two_sided.rms).epsilon(tolerance));
+  };
+  same([](const Vec3d& p) { return 1048576.0 * p; }, 1e-12);  // no rounding at all
+  same([](const Vec3d& p) { return 1e-6 * p; }, 0.06);
+  same([](const Vec3d& p) { return 1e6 * p; }, 0.06);
+  same([](const Vec3d& p) { return p + Vec3d(1e6, -1e6, 1e6); }, 0.06);
+  same([](const Vec3d& p) { return Vec3d(0.6 * p[0] - 0.8 * p[1], 0.8 * p[0] + 0.6 * p[1], p[2]); }, 0.06);
+}
