@@ -122,7 +122,8 @@ void Decimator::order_chain(const std::vector<int>& chain, std::vector<std::pair
   };
   const int last = static_cast<int>(chain.size()) - 1;
   const bool loop = chain.front() == chain.back();
-  const bool line = is_line(graph_.edge(graph_.find_edge(chain[0], chain[1])).kind);
+  const int kind = graph_.edge(graph_.find_edge(chain[0], chain[1])).kind;
+  const bool line = is_line(kind), feature = kind == static_cast<int>(EdgeKind::feature);
   std::vector<Range> ranges;
   int begin = 0;
   if (loop)
@@ -149,7 +150,8 @@ void Decimator::order_chain(const std::vector<int>& chain, std::vector<std::pair
         split = i;
       }
     }
-    if (!(farthest > tolerance_between(chain, r.begin, r.end)))
+    const double tolerance = tolerance_between(chain, r.begin, r.end);
+    if (!(farthest > (feature ? std::min(tolerance, options_.feature_tolerance) : tolerance)))
       removable.emplace_back(r.depth, chain[at(split)]);
     ranges.push_back({r.begin, split, r.depth + 1});
     ranges.push_back({split, r.end, r.depth + 1});
@@ -239,6 +241,11 @@ bool Decimator::contract(int keep, int gone, int edge) {
   });
   std::vector<int> others;
   for (const Moved& m : moved) {
+    if (graph_.edge(m.edge).kind == static_cast<int>(EdgeKind::feature) &&
+        off_segment(network_.positions[at(gone)], network_.positions[at(keep)],
+                    network_.positions[at(m.other)])
+                .norm() > options_.feature_tolerance)
+      return false;
     const int twin = graph_.find_edge(keep, m.other);
     if (twin >= 0 && !is_line(graph_.edge(twin).kind) && !is_line(graph_.edge(m.edge).kind)) return false;
     others.push_back(m.other);

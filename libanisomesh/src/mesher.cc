@@ -51,8 +51,9 @@ MeshOptions resolved(MeshOptions options, const OpenMesh::TriConnectivity& mesh)
 // Polygons that would be folded, concave or without area are given other chances with more samples around
 // them.
 constexpr size_t max_retries = 8;
-constexpr double tiny = 0.05;   // of epsilon: no edge need be as short
-constexpr double around = 1.5;  // diameters of such a polygon
+constexpr double feature_tolerance = 4e-4;  // of the diagonal, however large epsilon is
+constexpr double tiny = 0.05;               // of epsilon: no edge need be as short
+constexpr double around = 1.5;              // diameters of such a polygon
 
 // Halves the share of the tolerances that holds near some polygons.
 void take_more_care(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
@@ -121,9 +122,10 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
   report_progress(progress, 0.4);
 
   const double chain_tolerance = options.chain_tolerance * epsilon;
-  const detail::DecimationOptions decimation{
-      chain_tolerance, std::min(chain_tolerance, 0.01 * surface.diagonal()), options.merge_fraction,
-      std::isfinite(epsilon) ? tiny * epsilon : 0};
+  const detail::DecimationOptions decimation{chain_tolerance,
+                                             std::min(chain_tolerance, 0.01 * surface.diagonal()),
+                                             feature_tolerance * surface.diagonal(), options.merge_fraction,
+                                             std::isfinite(epsilon) ? tiny * epsilon : 0};
   const detail::RegionOptions region_options{
       {options.max_degree, options.convex}, options.cell_tolerance * epsilon, options.flip_edges};
   const detail::PolygonJudge judge(surface, drawing->locator(), normals, {epsilon, options.max_bend_degrees});
