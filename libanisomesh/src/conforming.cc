@@ -140,6 +140,7 @@ RegionCorners part_of(const RegionCorners& region, const Piece& piece) {
   }
   part.loop = piece.size();
   part.normal = region.normal;
+  part.on_surface = region.on_surface;
   if (!region.forbidden.empty())
     for (int i = 0; i < static_cast<int>(piece.size()); ++i)
       for (int k = i + 1; k < static_cast<int>(piece.size()); ++k)

@@ -23,7 +23,7 @@ constexpr double least_shape = 0.02;   // twice the area over the square of the 
 constexpr double least_area = 1e-7;    // likewise, where a triangle must only not be turned over
 constexpr double pi = 3.14159265358979323846;
 constexpr double least_weight = 0.01;  // what is pinned stays clear of the sides
-constexpr int flip_passes = 20;
+constexpr int flip_passes = 50;
 double cross2(const Vec2d& a, const Vec2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 constexpr size_t nearest_tried = 6;  // neighbours that a vertex may be moved to, unless nothing else is left
@@ -387,7 +387,10 @@ void MeshEmbedding::flip(const NetworkGraph& network) {
       const bool wanted = now <= turned_cosine || angle(c, a, b) + angle(d, a, b) > pi + 1e-6;
       if (!wanted || !mesh_.is_flip_ok(e)) continue;
       const double then = std::min(cosine_to_surface(a, d, c), cosine_to_surface(d, b, c));
-      if (now <= turned_cosine ? then <= now + 1e-6 : then <= turned_cosine) continue;
+      // Among triangles that are turned over, as where a strip around a hole is twisted, shorter is better.
+      const bool shorter = (mesh_.point(d) - mesh_.point(c)).sqrnorm() <
+                           (1 - 1e-6) * (mesh_.point(b) - mesh_.point(a)).sqrnorm();
+      if (now <= turned_cosine ? !(then > now + 1e-6 || shorter) : then <= turned_cosine) continue;
       flip_edge(e);
       changed = true;
     }

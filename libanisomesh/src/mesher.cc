@@ -128,7 +128,9 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
                                              std::isfinite(epsilon) ? tiny * epsilon : 0};
   const detail::RegionOptions region_options{
       {options.max_degree, options.convex}, options.cell_tolerance * epsilon, options.flip_edges};
-  const detail::PolygonJudge judge(surface, drawing->locator(), normals, {epsilon, options.max_bend_degrees});
+  const detail::PolygonJudge judge(
+      surface, drawing->locator(), normals,
+      {epsilon, drawing->network().planar ? 10.0 : 100.0, options.max_bend_degrees});
   NetworkGraph network, start = drawing->network();
   std::vector<std::vector<int>> polygons;
   while (true) {

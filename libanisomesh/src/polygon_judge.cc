@@ -14,8 +14,8 @@ constexpr double degree = pi / 180;
 constexpr double triangle_base = 1.4;  // two triangles are worth avoiding unless the quad is badly shaped
 constexpr double shape_weight = 2;
 constexpr double error_weight = 0.6;
-constexpr double max_error_ratio = 10;
 constexpr double bent = 3;         // a quad bent too far: worse than two good triangles
+constexpr double averse = 30;      // for each corner where the surface faces the other way, in its own domain
 constexpr double folded = 1e3;     // only where nothing else is left
 constexpr double forbidden = 1e6;  // concave or without area: two folded triangles are better than that
 
@@ -74,7 +74,7 @@ double PolygonJudge::chord_error(const RegionCorners& region, int a, int b) cons
 
 double PolygonJudge::error_cost(const RegionCorners& region, int a, int b) const {
   if (!(options_.epsilon > 0) || !std::isfinite(options_.epsilon)) return 0;
-  return error_weight * std::min(chord_error(region, a, b) / options_.epsilon, max_error_ratio);
+  return error_weight * std::min(chord_error(region, a, b) / options_.epsilon, options_.max_error_ratio);
 }
 
 double PolygonJudge::chord_cost(const RegionCorners& region, int a, int b) const {
@@ -86,6 +86,15 @@ Vec3d PolygonJudge::reference_normal(const RegionCorners& region, std::initializ
   Vec3d sum(0, 0, 0);
   for (const int i : corners) sum += region.corner_normal[at(i)];
   return sum.sqrnorm() > 0 ? sum : region.normal;
+}
+
+// How many corners see the polygon from behind, which one that spans a hole has however near it is.
+int PolygonJudge::against(const RegionCorners& region, std::initializer_list<int> corners,
+                          const Vec3d& area) {
+  if (!region.on_surface) return 0;
+  int count = 0;
+  for (const int i : corners) count += (region.corner_normal[at(i)] | area) < 0;
+  return count;
 }
 
 double PolygonJudge::triangle_cost(const RegionCorners& region, int a, int b, int c) const {
@@ -100,6 +109,7 @@ double PolygonJudge::triangle_cost(const RegionCorners& region, int a, int b, in
   double cost = triangle_base + shape_weight * angle_cost(std::max(widest, pi / 2));
   if (!(area.norm() > 1e-5 * longest)) cost += folded;
   if ((area | reference_normal(region, {a, b, c})) <= 0) cost += folded;
+  cost += averse * against(region, {a, b, c}, area);
   // Every inner chord is a side of two pieces.
   for (const auto& side : {std::array<int, 2>{a, b}, {b, c}, {c, a}})
     if (!region.is_side(side[0], side[1])) cost += chord_cost(region, side[0], side[1]);
@@ -123,6 +133,7 @@ double PolygonJudge::quad_cost(const RegionCorners& region, const std::array<int
     shape = std::max(shape, angle_cost(pi - turn));
   }
   if ((normal | reference_normal(region, {quad[0], quad[1], quad[2], quad[3]})) <= 0) cost += 2 * folded;
+  cost += averse * against(region, {quad[0], quad[1], quad[2], quad[3]}, area);
   cost += shape_weight * shape;
   // Whoever draws it will use the shorter diagonal.
   const bool second = (p[1] - p[3]).sqrnorm() < (p[0] - p[2]).sqrnorm();

@@ -19,6 +19,7 @@ struct RegionCorners {
   std::vector<Vec3d> corner_normal;        ///< of the surface there; zero on a feature, where it has none
   size_t loop = 0;                         ///< so many of them, the first, go around it
   Vec3d normal{0, 0, 0};                   ///< unit, of the surface inside the region
+  bool on_surface = false;                 ///< there is no parameter plane but this region's own
   /// Pairs of corners, the lower first, that have an edge outside the region and must not get another.
   std::vector<std::array<int, 2>> forbidden;
   size_t size() const { return node.size(); }
@@ -37,6 +38,7 @@ struct RegionCorners {
 
 struct JudgeOptions {
   double epsilon = 0;           ///< model units; 0 or infinite: not known, no cost for the error
+  double max_error_ratio = 10;  ///< in epsilons: a chord farther from the surface costs no more
   double max_bend_degrees = 0;  ///< a quad bent more along a diagonal is split; 180: never
 };
 
@@ -61,6 +63,7 @@ class PolygonJudge {
   /// Of an inner side of a polygon, which is a side of two.
   double chord_cost(const RegionCorners& region, int a, int b) const;
   double error_cost(const RegionCorners& region, int a, int b) const;
+  static int against(const RegionCorners& region, std::initializer_list<int> corners, const Vec3d& area);
   static Vec3d reference_normal(const RegionCorners& region, std::initializer_list<int> corners);
 
   const SurfaceRef& surface_;

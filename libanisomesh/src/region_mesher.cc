@@ -55,7 +55,7 @@ double RegionMesher::distance(const Probe& probe, int a, int b, int c) const {
 }
 
 double RegionMesher::distance(const Probe& probe, const std::vector<std::array<int, 3>>& triangles) const {
-  if (region_.on_surface) {  // by what is nearest in space: (u, v) is too coarse a guess
+  if (corners_.on_surface) {  // by what is nearest in space: (u, v) is too coarse a guess
     double least = std::numeric_limits<double>::infinity();
     for (const auto& t : triangles) {
       const Vec3d &p = corners_.position[at(t[0])], &q = corners_.position[at(t[1])],
@@ -126,7 +126,7 @@ bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& 
   Probe* chosen = nullptr;
   for (Probe& probe : region_.probes) {
     double d = 0;
-    if (region_.on_surface) {
+    if (corners_.on_surface) {
       d = distance(probe, triangulation.triangles());
     } else {
       const auto& t = triangulation.triangles()[at(triangulation.locate(probe.uv))];

@@ -24,7 +24,6 @@ struct Region {
   size_t isotropic = 0;                       ///< how many of the corners are isotropic samples
   std::vector<std::array<int, 3>> triangles;  ///< of the corners on its border, by index
   bool may_add = true;                        ///< samples where it is too far from its probes
-  bool on_surface = false;                    ///< there is no parameter plane but this region's own
   bool holds_samples = false;                 ///< the triangles are of the isotropic samples as well
   std::vector<Probe> probes;
 };
