@@ -51,9 +51,10 @@ MeshOptions resolved(MeshOptions options, const OpenMesh::TriConnectivity& mesh)
 // Polygons that would be folded, concave or without area are given other chances with more samples around
 // them.
 constexpr size_t max_retries = 8;
-constexpr double feature_tolerance = 4e-4;  // of the diagonal, however large epsilon is
-constexpr double tiny = 0.05;               // of epsilon: no edge need be as short
-constexpr double around = 1.5;              // diameters of such a polygon
+constexpr double feature_cell_tolerance = 2e-3;  // of the diagonal, of cells at features
+constexpr double feature_tolerance = 4e-4;       // of the diagonal, however large epsilon is
+constexpr double tiny = 0.05;                    // of epsilon: no edge need be as short
+constexpr double around = 1.5;                   // diameters of such a polygon
 
 // Halves the share of the tolerances that holds near some polygons.
 void take_more_care(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
@@ -126,11 +127,16 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
                                              std::min(chain_tolerance, 0.01 * surface.diagonal()),
                                              feature_tolerance * surface.diagonal(), options.merge_fraction,
                                              std::isfinite(epsilon) ? tiny * epsilon : 0};
-  const detail::RegionOptions region_options{
-      {options.max_degree, options.convex}, options.cell_tolerance * epsilon, options.flip_edges};
-  const detail::PolygonJudge judge(
-      surface, drawing->locator(), normals,
-      {epsilon, drawing->network().planar ? 10.0 : 100.0, options.max_bend_degrees});
+  const detail::RegionOptions region_options{{options.max_degree, options.convex},
+                                             options.cell_tolerance * epsilon,
+                                             options.flip_edges,
+                                             feature_cell_tolerance * surface.diagonal()};
+  // On the surface nothing but the judge keeps a cell from being bridged, so that a large epsilon, as where
+  // the features alone are more than the faces that are wanted, must not make that cheap.
+  const bool planar = drawing->network().planar;
+  const double judged = planar ? epsilon : std::min(epsilon, feature_cell_tolerance * surface.diagonal());
+  const detail::PolygonJudge judge(surface, drawing->locator(), normals,
+                                   {judged, planar ? 10.0 : 100.0, options.max_bend_degrees});
   NetworkGraph network, start = drawing->network();
   std::vector<std::vector<int>> polygons;
   while (true) {

@@ -14,8 +14,9 @@ constexpr double degree = pi / 180;
 constexpr double triangle_base = 1.4;  // two triangles are worth avoiding unless the quad is badly shaped
 constexpr double shape_weight = 2;
 constexpr double error_weight = 0.6;
-constexpr double bent = 3;         // a quad bent too far: worse than two good triangles
-constexpr double averse = 30;      // for each corner where the surface faces the other way, in its own domain
+constexpr double bent = 3;  // a quad bent too far: worse than two good triangles
+constexpr double least_cosine = 0.3;
+constexpr double averse = 30;      // for each corner where the cosine to the surface is below that
 constexpr double folded = 1e3;     // only where nothing else is left
 constexpr double forbidden = 1e6;  // concave or without area: two folded triangles are better than that
 
@@ -88,12 +89,13 @@ Vec3d PolygonJudge::reference_normal(const RegionCorners& region, std::initializ
   return sum.sqrnorm() > 0 ? sum : region.normal;
 }
 
-// How many corners see the polygon from behind, which one that spans a hole has however near it is.
+// At how many corners the surface stands steeply on the polygon or faces the other way, as where one spans a
+// hole or lies along a rim, however near to the surface it is.
 int PolygonJudge::against(const RegionCorners& region, std::initializer_list<int> corners,
                           const Vec3d& area) {
   if (!region.on_surface) return 0;
   int count = 0;
-  for (const int i : corners) count += (region.corner_normal[at(i)] | area) < 0;
+  for (const int i : corners) count += (region.corner_normal[at(i)] | area) < least_cosine * area.norm();
   return count;
 }
 

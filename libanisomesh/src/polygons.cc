@@ -133,6 +133,8 @@ Region Extractor::region_of(const Cell& cell, const std::vector<std::array<int, 
     for (const auto& pair : cell.forbidden) region.corners.forbid(corner(pair[0]), corner(pair[1]));
     for (const auto& pair : taken) region.corners.forbid(pair[0], pair[1]);
     region.corners.on_surface = true;
+    region.at_feature = std::any_of(region.corners.corner_normal.begin(), region.corners.corner_normal.end(),
+                                    [](const Vec3d& n) { return n.sqrnorm() == 0; });
     set_one_sided_normals(region);
     lay_out(region);
   }

@@ -25,7 +25,12 @@ double turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
 class RegionMesher {
  public:
   RegionMesher(Region& region, const PolygonJudge& judge, const RegionOptions& options)
-      : region_(region), corners_(region.corners), judge_(judge), options_(options) {}
+      : region_(region),
+        corners_(region.corners),
+        judge_(judge),
+        options_(options),
+        tolerance_(region.at_feature ? std::min(options.cell_tolerance, options.feature_cell_tolerance)
+                                     : options.cell_tolerance) {}
 
   RegionPolygons run();
 
@@ -43,6 +48,7 @@ class RegionMesher {
   RegionCorners& corners_;
   const PolygonJudge& judge_;
   const RegionOptions& options_;
+  const double tolerance_;
 };
 
 // Distance of the surface from the plane of a triangle; the nearest point is not sought, since it lies
@@ -132,7 +138,7 @@ bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& 
       const auto& t = triangulation.triangles()[at(triangulation.locate(probe.uv))];
       d = distance(probe, t[0], t[1], t[2]);
     }
-    if (d <= options_.cell_tolerance) continue;
+    if (d <= tolerance_) continue;
     const double weighted = d * std::min(1.0, border_distance(probe.position) / size);
     if (weighted <= worst) continue;
     worst = weighted;
@@ -188,16 +194,15 @@ std::vector<Piece> RegionMesher::pieces_of(const SmallTriangulation& triangulati
 
 RegionPolygons RegionMesher::run() {
   RegionPolygons result;
-  const bool bounded = std::isfinite(options_.cell_tolerance);
+  const bool bounded = std::isfinite(tolerance_);
   if (region_.simple) {
     result.convex = PolygonJudge::is_convex(
         {corners_.position.begin(), corners_.position.begin() + static_cast<std::ptrdiff_t>(corners_.loop)});
     if (bounded || region_.isotropic == 0) {
       result.polygons = partition_region(corners_, judge_, options_.partition);
       const auto drawn = as_drawn(result.polygons);
-      const bool near = std::all_of(region_.probes.begin(), region_.probes.end(), [&](const Probe& probe) {
-        return distance(probe, drawn) <= options_.cell_tolerance;
-      });
+      const bool near = std::all_of(region_.probes.begin(), region_.probes.end(),
+                                    [&](const Probe& probe) { return distance(probe, drawn) <= tolerance_; });
       if (near && !has_forbidden(result.polygons)) return result;
     }
   }

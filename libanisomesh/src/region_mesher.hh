@@ -24,6 +24,7 @@ struct Region {
   size_t isotropic = 0;                       ///< how many of the corners are isotropic samples
   std::vector<std::array<int, 3>> triangles;  ///< of the corners on its border, by index
   bool may_add = true;                        ///< samples where it is too far from its probes
+  bool at_feature = false;                    ///< only where there is no parameter plane
   bool holds_samples = false;                 ///< the triangles are of the isotropic samples as well
   std::vector<Probe> probes;
 };
@@ -32,6 +33,7 @@ struct RegionOptions {
   PartitionOptions partition;
   double cell_tolerance = 0;  ///< model units, see MeshOptions; infinite: keep all samples and add none
   bool flip_edges = true;
+  double feature_cell_tolerance = 0;  ///< no more than that at features, in the surface's own domain
 };
 
 struct RegionPolygons {
