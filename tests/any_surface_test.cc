@@ -186,10 +186,12 @@ TEST_CASE("real surfaces of every topology keep it") {
     double feature_angle;
     double rms;  // fraction of the diagonal
   };
-  // of genus 3, of genus 4 with features, in 26 pieces, with many borders, mechanical, scanned with a border
-  const std::vector<Scan> scans{{"elephant.off", 1500, 0, 0.0015}, {"anchor.off", 500, 40, 0.004},
-                                {"bones.off", 2000, 0, 0.002},     {"holes.off", 1500, 0, 0.0006},
-                                {"fandisk.off", 1500, 40, 0.0004}, {"pig.off", 450, 0, 0.004}};
+  // of genus 3, of in 26 pieces, with many borders, mechanical, scanned with a border
+  const std::vector<Scan> scans{{"elephant.off", 1500, 0, 0.0015},
+                                {"bones.off", 2000, 0, 0.002},
+                                {"holes.off", 1500, 0, 0.0006},
+                                {"fandisk.off", 1500, 40, 0.0004},
+                                {"pig.off", 450, 0, 0.004}};
   for (const Scan& scan : scans) {
     const auto path = demo_mesh(scan.name);
     if (!path) return skip(scan.name);
