@@ -27,6 +27,8 @@ using namespace anisomesh;
 
 namespace {
 
+constexpr size_t least_triangles = 500;  // of an input that can be asked for a number of faces
+
 struct Settings {
   size_t target = 2000, largest = 200000;
   double feature_angle = 0;
@@ -152,6 +154,10 @@ int main(int argc, char** argv) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const auto ending = entry.path().extension();
     if (ending != ".off" && ending != ".obj" && ending != ".stl" && ending != ".ply") continue;
+    const bool known = std::any_of(paths.begin(), paths.end(), [&](const auto& path) {
+      return path.filename() == entry.path().filename();  // the package has some twice
+    });
+    if (known) continue;
     if (names.empty() || std::find(names.begin(), names.end(), entry.path().filename()) != names.end())
       paths.push_back(entry.path());
   }

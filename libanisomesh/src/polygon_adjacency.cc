@@ -11,23 +11,6 @@ namespace {
 using Polygon = std::vector<int>;
 size_t at(int i) { return static_cast<size_t>(i); }
 
-// Corners on features have the normals of the polygons at them.
-void set_one_sided_normals(RegionCorners& corners, const std::vector<Polygon>& polygons,
-                           const std::vector<int>& path) {
-  const auto of_polygons = in_corners(corners, polygons, path);
-  std::vector<Vec3d> sums(corners.size(), Vec3d(0, 0, 0));
-  for (const Polygon& p : of_polygons) {
-    Vec3d area(0, 0, 0);
-    for (size_t i = 1; i + 1 < p.size(); ++i)
-      area += cross(corners.position[at(p[i])] - corners.position[at(p[0])],
-                    corners.position[at(p[i + 1])] - corners.position[at(p[0])]);
-    for (const int i : p) sums[at(i)] += area;
-  }
-  for (size_t i = 0; i < corners.size(); ++i)
-    if (corners.corner_normal[i].sqrnorm() == 0 && sums[i].norm() > 0)
-      corners.corner_normal[i] = sums[i].normalized();
-}
-
 }  // namespace
 
 PolygonAdjacency::PolygonAdjacency(const std::vector<Polygon>& polygons, size_t n_nodes,
@@ -108,7 +91,7 @@ RegionCorners PolygonAdjacency::around(const std::vector<Polygon>& polygons, con
         cross(corners.position[i] - corners.position[0], corners.position[i + 1] - corners.position[0]);
   if (!network.planar) {
     corners.on_surface = true;
-    set_one_sided_normals(corners, polygons, path);
+    corners.take_normals_of(in_corners(corners, polygons, path));
     lay_out(corners);
     forbid_other_sides(corners, polygons, path);
   }

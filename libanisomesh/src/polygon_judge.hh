@@ -29,6 +29,10 @@ struct RegionCorners {
     return std::find(forbidden.begin(), forbidden.end(),
                      std::array<int, 2>{std::min(a, b), std::max(a, b)}) != forbidden.end();
   }
+  /// Gives corners on features the normals of the pieces at them, which are on one side: the surface has none
+  /// there, and a cell that goes around a hole has none as a whole. \param pieces lists of corners, by index
+  template <class Pieces>
+  void take_normals_of(const Pieces& pieces);
   /// Whether b follows a on the border of the region.
   bool is_side(int a, int b) const {
     const int n = static_cast<int>(loop);
@@ -71,5 +75,19 @@ class PolygonJudge {
   const SurfaceNormals& normals_;
   JudgeOptions options_;
 };
+
+template <class Pieces>
+void RegionCorners::take_normals_of(const Pieces& pieces) {
+  const auto place = [this](int i) { return position[static_cast<size_t>(i)]; };
+  std::vector<Vec3d> sums(size(), Vec3d(0, 0, 0));
+  for (const auto& piece : pieces) {
+    Vec3d area(0, 0, 0);
+    for (size_t i = 1; i + 1 < piece.size(); ++i)
+      area += cross(place(piece[i]) - place(piece[0]), place(piece[i + 1]) - place(piece[0]));
+    for (const int i : piece) sums[static_cast<size_t>(i)] += area;
+  }
+  for (size_t i = 0; i < size(); ++i)
+    if (corner_normal[i].sqrnorm() == 0 && sums[i].norm() > 0) corner_normal[i] = sums[i].normalized();
+}
 
 }  // namespace anisomesh::detail

@@ -68,19 +68,6 @@ std::vector<int> border_of(const Cell& cell, bool& simple) {
   return loop;
 }
 
-// Corners on features have the normals of the triangles at them: the surface has none there, and a cell that
-// goes around a hole has none as a whole.
-void set_one_sided_normals(Region& region) {
-  RegionCorners& c = region.corners;
-  std::vector<Vec3d> sums(c.size(), Vec3d(0, 0, 0));
-  for (const auto& t : region.triangles) {
-    const Vec3d &p = c.position[at(t[0])], &q = c.position[at(t[1])], &r = c.position[at(t[2])];
-    for (const int i : t) sums[at(i)] += cross(q - p, r - p);
-  }
-  for (size_t i = 0; i < c.size(); ++i)
-    if (c.corner_normal[i].sqrnorm() == 0 && sums[i].norm() > 0) c.corner_normal[i] = sums[i].normalized();
-}
-
 // That of the surface in the middle of the triangles, by their size in space.
 void Extractor::set_normal(const Cell& cell, Vec3d& normal) const {
   for (const auto& node : cell.triangles) {
@@ -135,7 +122,7 @@ Region Extractor::region_of(const Cell& cell, const std::vector<std::array<int, 
     region.corners.on_surface = true;
     region.at_feature = std::any_of(region.corners.corner_normal.begin(), region.corners.corner_normal.end(),
                                     [](const Vec3d& n) { return n.sqrnorm() == 0; });
-    set_one_sided_normals(region);
+    region.corners.take_normals_of(region.triangles);
     lay_out(region);
   }
   return region;

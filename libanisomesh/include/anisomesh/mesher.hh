@@ -48,6 +48,7 @@ struct MeshReport {
 };
 
 /// Builds the polygonal mesh from the lines, samples and features on the surface. [ACDLD03, section 4]
+/// Works in the plane where the mesh carries uv, and otherwise on the surface itself, of any topology.
 /// Reads: uv, the lines and isotropic samples, edge feature status. Writes nothing on the input; the result
 /// carries origin, source_face, source_barycentric and edge_kind (properties.hh), and edge feature status.
 /// \throw InvalidOption, InvalidInput, CannotProcess, Cancelled
