@@ -18,6 +18,7 @@
 #include "catch.hh"
 #include "data.hh"
 #include "overlay.hh"
+#include "sound_result.hh"
 
 using namespace anisomesh;
 
@@ -45,16 +46,6 @@ Comparison compared(OpenMesh::TriMesh& mesh, OpenMesh::PolyMesh& result) {
   CompareOptions options;
   options.samples = 20000;
   return compare(mesh, result, options);
-}
-
-void check_sound(const Comparison& c) {
-  CHECK(c.same_topology);
-  CHECK(c.non_manifold_edges == 0);
-  CHECK(c.non_manifold_vertices == 0);
-  CHECK(c.t_junctions == 0);
-  CHECK(c.concave_faces == 0);
-  CHECK(c.degenerate_faces == 0);
-  CHECK(c.folded_faces == 0);
 }
 
 double area(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return 0.5 * cross(b - a, c - a).norm(); }

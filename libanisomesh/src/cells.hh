@@ -18,4 +18,7 @@ struct Cell {
   std::vector<std::array<int, 2>> forbidden;  ///< corners that are joined elsewhere, on the surface only
 };
 
+/// The nodes around a cell, in order; none if its sides are not one loop that passes each node once.
+std::vector<int> loop_around(const Cell& cell);
+
 }  // namespace anisomesh::detail

@@ -46,9 +46,12 @@ class MeshEmbedding final : public Embedding {
   };
   struct Triangle {
     std::array<int, 3> node;
-    const std::vector<Pinned>* pinned;  ///< good until the next change
+    std::array<int, 3> across{-1, -1, -1};  ///< triangle beyond the side from corner k to the next, or -1
+    const std::vector<Pinned>* pinned;      ///< good until the next change
   };
   std::vector<Triangle> triangles() const;
+  /// The nodes that the edges of the triangulation join a node to.
+  std::vector<int> neighbours(int node) const;
 
  private:
   enum class Care { shape, turning, topology };

@@ -47,7 +47,6 @@ class Drawing {
     size_t line_crossings = 0;
   };
   struct EdgeNode {
-    int low, high;
     double t;
     int node;
   };
@@ -74,8 +73,7 @@ class Drawing {
   std::vector<Piece> pieces_;
   std::unordered_map<std::uint64_t, std::vector<EdgeNode>> edge_nodes_;  // by edge, ascending by t at the end
   std::vector<std::array<int, 2>> face_nodes_;                           // face, node inside it
-  std::unordered_map<int, std::array<int, 2>> edge_of_node_;
-  std::unordered_map<int, double> t_of_node_;
+  std::unordered_map<int, EdgeCrossing> edge_of_node_;  // where each node that is on an edge crosses it
 };
 
 std::uint64_t key_of(int low, int high) {
@@ -128,9 +126,8 @@ int Drawing::node_on_edge(const EdgeCrossing& crossing, int face, Origin origin,
   if (kind == static_cast<int>(EdgeKind::border)) origin = Origin::border;
   if (kind == static_cast<int>(EdgeKind::feature)) origin = Origin::feature;
   const int node = add_node(point, origin, fixed);
-  nodes.push_back({crossing.vertex[0], crossing.vertex[1], t, node});
-  edge_of_node_[node] = crossing.vertex;
-  t_of_node_[node] = t;
+  nodes.push_back({t, node});
+  edge_of_node_[node] = {crossing.vertex, t};
   return node;
 }
 
@@ -216,9 +213,9 @@ Vec2d Drawing::local(int face, int node) const {
   if (at(node) < arrays_.points.size()) {
     b[arrays_.corner_of(face, node)] = 1;
   } else if (edge != edge_of_node_.end()) {
-    const double t = t_of_node_.at(node);
-    b[arrays_.corner_of(face, edge->second[0])] = 1 - t;
-    b[arrays_.corner_of(face, edge->second[1])] = t;
+    const EdgeCrossing& crossing = edge->second;
+    b[arrays_.corner_of(face, crossing.vertex[0])] = 1 - crossing.t;
+    b[arrays_.corner_of(face, crossing.vertex[1])] = crossing.t;
   } else {
     b = overlay_.points[at(node)].barycentric;
   }

@@ -31,13 +31,12 @@ PolygonAdjacency::PolygonAdjacency(const std::vector<Polygon>& polygons, size_t 
       neighbors_.push_back(-1);
     }
   }
-  sides_.reserve(sides.size());
-  for (const Side& s : sides) sides_.push_back({s.low, s.high});
-  std::sort(sides_.begin(), sides_.end());
   std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
     if (x.low != y.low) return x.low < y.low;
     return x.high != y.high ? x.high < y.high : x.place < y.place;
   });
+  sides_.reserve(sides.size());
+  for (const Side& s : sides) sides_.push_back({s.low, s.high});
   for (size_t i = 0; i + 1 < sides.size(); ++i) {
     const Side &x = sides[i], &y = sides[i + 1];
     if (x.low != y.low || x.high != y.high || !may_cross(x.low, x.high)) continue;

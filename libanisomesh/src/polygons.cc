@@ -49,23 +49,14 @@ class Extractor {
 
 // The nodes around a cell, in order if they form one loop, and all of them otherwise.
 std::vector<int> border_of(const Cell& cell, bool& simple) {
-  auto sides = cell.sides;
-  std::sort(sides.begin(), sides.end());
-  simple = std::adjacent_find(sides.begin(), sides.end(),
-                              [](const auto& x, const auto& y) { return x[0] == y[0]; }) == sides.end();
-  std::vector<int> loop{sides.front()[0]};
-  if (simple)
-    for (int node = sides.front()[1]; node != loop.front();) {
-      loop.push_back(node);
-      node = (*std::lower_bound(sides.begin(), sides.end(), std::array<int, 2>{node, -1}))[1];
-    }
-  if (simple && loop.size() == sides.size()) return loop;
-  simple = false;  // a hole, or an edge that ends inside
-  loop.clear();
-  for (const auto& t : cell.triangles) loop.insert(loop.end(), t.begin(), t.end());
-  std::sort(loop.begin(), loop.end());
-  loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
-  return loop;
+  std::vector<int> nodes = loop_around(cell);
+  simple = !nodes.empty();
+  if (simple) return nodes;
+  // a hole, or an edge that ends inside
+  for (const auto& t : cell.triangles) nodes.insert(nodes.end(), t.begin(), t.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
 }
 
 // That of the surface in the middle of the triangles, by their size in space.

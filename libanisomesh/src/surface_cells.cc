@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <memory>
-#include <numeric>
-
-#include "numerics/bvh.hh"
 
 namespace anisomesh::detail {
 
@@ -18,68 +14,37 @@ class SurfaceCells {
  public:
   SurfaceCells(const NetworkGraph& network, const SurfaceRef& surface, const MeshEmbedding& embedding,
                bool probes)
-      : network_(network), surface_(surface), probes_(probes), triangles_(embedding.triangles()) {}
+      : network_(network),
+        surface_(surface),
+        embedding_(embedding),
+        probes_(probes),
+        triangles_(embedding.triangles()) {}
 
   std::vector<Cell> run() {
-    find_neighbours();
     flood_all();
     for (Cell& cell : cells_) forbid_other_edges(cell);
     return std::move(cells_);
   }
 
  private:
-  void find_neighbours();
   void flood_all();
-  bool is_disc(const Cell& cell) const;
+  bool is_side(int triangle, size_t k) const;
   void forbid_other_edges(Cell& cell) const;
   Cell cell_of(const std::vector<int>& triangles) const;
   void add_probes(int triangle, Cell& cell) const;
 
   const NetworkGraph& network_;
   const SurfaceRef& surface_;
+  const MeshEmbedding& embedding_;
   bool probes_;
   std::vector<Triangle> triangles_;
-  std::vector<std::array<int, 3>>
-      beyond_;  // of each triangle across side k to k + 1; -1: an edge of the network
-  std::vector<int> first_neighbour_, neighbour_;  // of each node, over all edges of the triangulation
-  std::vector<int> cell_of_triangle_;
   std::vector<Cell> cells_;
 };
 
-void SurfaceCells::find_neighbours() {
-  struct Side {
-    int low, high, triangle, k;
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles_.size());
-  for (size_t t = 0; t < triangles_.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const int a = triangles_[t].node[at(k)], b = triangles_[t].node[at((k + 1) % 3)];
-      sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(t), k});
-    }
-  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
-    if (x.low != y.low) return x.low < y.low;
-    return x.high != y.high ? x.high < y.high : x.triangle < y.triangle;
-  });
-  std::vector<std::array<int, 2>> edges;
-  for (const Side& s : sides)
-    if (edges.empty() || edges.back() != std::array<int, 2>{s.low, s.high}) edges.push_back({s.low, s.high});
-  first_neighbour_.assign(network_.graph.n_nodes() + 1, 0);
-  for (const auto& e : edges)
-    for (const int n : e) ++first_neighbour_[at(n) + 1];
-  std::partial_sum(first_neighbour_.begin(), first_neighbour_.end(), first_neighbour_.begin());
-  neighbour_.resize(2 * edges.size());
-  auto next = first_neighbour_;
-  for (const auto& e : edges)
-    for (size_t k = 0; k < 2; ++k) neighbour_[at(next[at(e[k])]++)] = e[1 - k];
-  beyond_.assign(triangles_.size(), {-1, -1, -1});
-  for (size_t i = 0; i + 1 < sides.size(); ++i) {
-    const Side &x = sides[i], &y = sides[i + 1];
-    if (x.low != y.low || x.high != y.high) continue;
-    if (network_.graph.find_edge(x.low, x.high) >= 0) continue;
-    beyond_[at(x.triangle)][at(x.k)] = y.triangle;
-    beyond_[at(y.triangle)][at(y.k)] = x.triangle;
-  }
+// Whether an edge of the network, or the border, runs along the side from corner k to the next.
+bool SurfaceCells::is_side(int triangle, size_t k) const {
+  const Triangle& t = triangles_[at(triangle)];
+  return t.across[k] < 0 || network_.graph.find_edge(t.node[k], t.node[(k + 1) % 3]) >= 0;
 }
 
 // The surface is linear between its vertices, so they are where it is farthest from a polygon.
@@ -108,7 +73,7 @@ Cell SurfaceCells::cell_of(const std::vector<int>& triangles) const {
     const auto& node = triangles_[at(i)].node;
     cell.triangles.push_back(node);
     for (size_t k = 0; k < 3; ++k)
-      if (beyond_[at(i)][k] < 0 || triangles.size() == 1) cell.sides.push_back({node[k], node[(k + 1) % 3]});
+      if (triangles.size() == 1 || is_side(i, k)) cell.sides.push_back({node[k], node[(k + 1) % 3]});
     inner.insert(inner.end(), node.begin(), node.end());
     if (probes_) add_probes(i, cell);
   }
@@ -135,8 +100,7 @@ void SurfaceCells::forbid_other_edges(Cell& cell) const {
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   std::sort(own.begin(), own.end());
   for (const int n : corners)
-    for (int i = first_neighbour_[at(n)]; i < first_neighbour_[at(n) + 1]; ++i) {
-      const int m = neighbour_[at(i)];
+    for (const int m : embedding_.neighbours(n)) {
       if (n < m && std::binary_search(corners.begin(), corners.end(), m) &&
           !std::binary_search(own.begin(), own.end(), std::array<int, 2>{n, m}))
         cell.forbidden.push_back({n, m});
@@ -144,43 +108,28 @@ void SurfaceCells::forbid_other_edges(Cell& cell) const {
 }
 
 // One loop around it that passes each node once, and as many triangles as a disc has with these nodes.
-bool SurfaceCells::is_disc(const Cell& cell) const {
-  if (cell.sides.empty()) return false;
-  auto sides = cell.sides;
-  std::sort(sides.begin(), sides.end());
-  for (size_t i = 0; i + 1 < sides.size(); ++i)
-    if (sides[i][0] == sides[i + 1][0]) return false;
-  size_t length = 0;
-  int node = sides.front()[0];
-  do {
-    const auto next = std::lower_bound(sides.begin(), sides.end(), std::array<int, 2>{node, -1});
-    if (next == sides.end() || (*next)[0] != node) return false;
-    node = (*next)[1];
-    ++length;
-  } while (node != sides.front()[0] && length <= sides.size());
-  return length == sides.size() && cell.triangles.size() == length + 2 * cell.samples.size() - 2;
+bool is_disc(const Cell& cell) {
+  const size_t length = loop_around(cell).size();
+  return length > 0 && cell.triangles.size() == length + 2 * cell.samples.size() - 2;
 }
 
 void SurfaceCells::flood_all() {
-  cell_of_triangle_.assign(triangles_.size(), -1);
+  std::vector<char> seen(triangles_.size(), 0);
   for (size_t start = 0; start < triangles_.size(); ++start) {
-    if (cell_of_triangle_[start] >= 0) continue;
+    if (seen[start]) continue;
     std::vector<int> found{static_cast<int>(start)};
-    const int cell = static_cast<int>(cells_.size());
-    cell_of_triangle_[start] = cell;
+    seen[start] = 1;
     for (size_t i = 0; i < found.size(); ++i)
-      for (const int next : beyond_[at(found[i])]) {
-        if (next < 0 || cell_of_triangle_[at(next)] >= 0) continue;
-        cell_of_triangle_[at(next)] = cell;
+      for (size_t k = 0; k < 3; ++k) {
+        const int next = triangles_[at(found[i])].across[k];
+        if (is_side(found[i], k) || seen[at(next)]) continue;
+        seen[at(next)] = 1;
         found.push_back(next);
       }
     cells_.push_back(cell_of(found));
     if (is_disc(cells_.back())) continue;
     cells_.pop_back();
-    for (const int t : found) {
-      cell_of_triangle_[at(t)] = static_cast<int>(cells_.size());
-      cells_.push_back(cell_of({t}));
-    }
+    for (const int t : found) cells_.push_back(cell_of({t}));
   }
 }
 
