@@ -34,6 +34,7 @@ int main(int argc, char* argv[]) {
                         "Remeshes a triangle mesh with quads that follow its lines of curvature. Writes the "
                         "same bytes as anisomesh-estimate, -flatten, -trace and -mesh in a row.");
   std::string input, output, page;
+  anisomesh::FillOptions fill;
   apps::FeatureFlags features;
   apps::EpsilonFlags epsilon;
   anisomesh::RemeshOptions options;
@@ -47,6 +48,7 @@ int main(int argc, char* argv[]) {
       ->group("Output");
   apps::add_density_options(command, epsilon, options.trace);
   apps::add_target_options(command, options);
+  apps::add_fill_option(command, fill);
   apps::add_feature_options(command, features);
   apps::add_curvature_options(command, options.curvature);
   apps::add_domain_option(command, options.domain);
@@ -55,10 +57,12 @@ int main(int argc, char* argv[]) {
 
   return command.run(argc, argv, [&] {
     options.trace.density.epsilon_fraction = epsilon.epsilon;
+    fill.validate();
     options.validate();  // before a long file is read
     if (!page.empty()) view::require_page(page);
     anisomesh::ReadReport read;
     auto mesh = apps::read_surface(command, input, &read);
+    apps::fill_holes(command, mesh, read, fill);
     const anisomesh::SurfaceRef surface = mesh;
     options.features = apps::resolve(features, read);
     options.trace.density.epsilon_fraction = apps::resolve(epsilon, surface);

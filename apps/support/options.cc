@@ -31,6 +31,14 @@ void add_choice(CLI::App& app, const std::string& name, Enum& value,
 
 }  // namespace
 
+void add_fill_option(Command& command, FillOptions& options) {
+  command.arguments()
+      .add_option("--fill-holes", options.max_edges,
+                  "Close border loops of up to so many edges, 3 to 1000, with triangles; 0: none")
+      ->type_name("N")
+      ->group("Holes");
+}
+
 void add_feature_options(Command& command, FeatureFlags& flags) {
   CLI::App& app = command.arguments();
   app.add_option("--feature-angle", flags.angle_degrees,

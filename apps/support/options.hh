@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "anisomesh/holes.hh"
 #include "anisomesh/io.hh"
 #include "anisomesh/remesh.hh"
 #include "support/command.hh"
@@ -20,6 +21,8 @@ struct EpsilonFlags {
   bool absolute = false;
 };
 
+/// --fill-holes.
+void add_fill_option(Command& command, anisomesh::FillOptions& options);
 void add_feature_options(Command& command, FeatureFlags& flags);
 void add_curvature_options(Command& command, anisomesh::CurvatureOptions& options);
 /// --domain.

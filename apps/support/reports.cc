@@ -15,6 +15,16 @@ Json to_json(const ReadReport& r) {
           {"isolated_vertices", r.isolated_vertices}};
 }
 
+Json to_json(const FillReport& r) {
+  return {{"closed", r.closed},
+          {"triangles", r.triangles},
+          {"joined_vertices", r.joined_vertices},
+          {"left_long", r.left_long},
+          {"left_folding", r.left_folding},
+          {"left_non_manifold", r.left_non_manifold},
+          {"seconds", r.seconds}};
+}
+
 Json to_json(const FeatureReport& r) {
   return {{"feature_edges", r.feature_edges},
           {"by_angle", r.by_angle},
@@ -175,6 +185,26 @@ OpenMesh::TriMesh read_surface(Command& command, const std::string& path, ReadRe
   warn(found.isolated_vertices, "vertices without a face were dropped");
   if (report) *report = std::move(found);
   return mesh;
+}
+
+void fill_holes(Command& command, OpenMesh::TriMesh& mesh, ReadReport& read, const FillOptions& options) {
+  if (options.max_edges == 0) return;
+  FillReport filled;
+  mesh = anisomesh::fill_holes(mesh, options, &filled);
+  if (read.vertex_of.empty())
+    read.vertex_of = filled.vertex_of;
+  else
+    for (int& v : read.vertex_of)
+      if (v >= 0) v = filled.vertex_of[static_cast<size_t>(v)];
+  command.report()["fill_holes"] = to_json(filled);
+  command.say(std::to_string(filled.closed) + " holes closed with " + std::to_string(filled.triangles) +
+              " triangles");
+  const auto warn = [&](size_t count, const std::string& why) {
+    if (count > 0) command.warn(std::to_string(count) + " border loops are left open: " + why);
+  };
+  warn(filled.left_long, "they have more than " + std::to_string(options.max_edges) + " edges");
+  warn(filled.left_folding, "what closes them would be folded");
+  warn(filled.left_non_manifold, "an edge would get more than two faces, or they cross themselves");
 }
 
 std::string mesh_summary(const OpenMesh::PolyMesh& mesh) {

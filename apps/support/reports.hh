@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "anisomesh/compare.hh"
+#include "anisomesh/holes.hh"
 #include "anisomesh/io.hh"
 #include "anisomesh/remesh.hh"
 #include "support/command.hh"
@@ -13,6 +14,7 @@
 namespace apps {
 
 Json to_json(const anisomesh::ReadReport& report);
+Json to_json(const anisomesh::FillReport& report);
 Json to_json(const anisomesh::FeatureReport& report);
 Json to_json(const anisomesh::CurvatureReport& report);
 Json to_json(const anisomesh::FlattenReport& report);
@@ -33,6 +35,10 @@ std::vector<std::pair<std::string, std::string>> comparison_lines(const anisomes
 /// Reads a surface for an app: reports what reading did, and warns where the file was not sound.
 OpenMesh::TriMesh read_surface(Command& command, const std::string& path,
                                anisomesh::ReadReport* report = nullptr);
+
+/// Closes holes if they are to be closed, says so, and carries the vertex numbers in `read` along.
+void fill_holes(Command& command, OpenMesh::TriMesh& mesh, anisomesh::ReadReport& read,
+                const anisomesh::FillOptions& options);
 
 /// "2013 vertices, 2001 faces: 1820 quads (91 %), 150 triangles, 31 others"
 std::string mesh_summary(const OpenMesh::PolyMesh& mesh);

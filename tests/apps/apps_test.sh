@@ -116,6 +116,24 @@ any_surface)
   done
   ;;
 
+holes)
+  # two triangles that touch are missing in an octahedron; with the holes closed its faces are all there
+  printf 'OFF\n6 6 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n3 2 1 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n' >holes.off
+  anisomesh-remesh -q holes.off -o one.obj --fill-holes 3 --json one.json
+  grep -q '"closed": *2' one.json || fail "not 2 holes closed"
+  printf 'OFF\n6 8 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n3 2 1 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n3 0 2 4\n3 1 3 4\n' >whole.off
+  anisomesh-compare whole.off one.obj --json compare.json >/dev/null
+  grep -q '"same_topology": *true' compare.json || fail "the octahedron is not whole"
+  ESTIMATE="--fill-holes 3"
+  in_a_row holes.off row.obj
+  cmp row.obj one.obj
+  # numbers in a feature file are those of the file, whatever was joined
+  printf '3 5\n1 5\n' >edges.txt
+  anisomesh-estimate -q holes.off -o features.om --fill-holes 3 --feature-file edges.txt --json features.json
+  grep -q '"feature_edges": *2' features.json || fail "features after filling"
+  expect 2 "max_edges" anisomesh-remesh holes.off -o x.obj --fill-holes 2
+  ;;
+
 bad_input)
   mkdir here
   printf 'old' >here/out.obj
