@@ -1,6 +1,7 @@
 // anisomesh-mesh: polygons from lines of curvature.
 #include <nlohmann/json.hpp>
 
+#include "anisomesh/fit.hh"
 #include "anisomesh/io.hh"
 #include "support/command.hh"
 #include "support/options.hh"
@@ -11,16 +12,22 @@ int main(int argc, char* argv[]) {
                         "Fourth stage: builds the polygonal mesh from the lines of curvature.");
   std::string input, output;
   anisomesh::MeshOptions polygons;
+  anisomesh::FitOptions fit;
   command.input(input, "input", "What anisomesh-trace wrote, .om");
   command.output(output,
                  "Where to write the result: .obj, .off, .ply or .om (with the origin of each element)");
   apps::add_mesh_options(command, polygons);
+  apps::add_fit_options(command, fit);
 
   return command.run(argc, argv, [&] {
     polygons.validate();
+    fit.validate();
     auto mesh = apps::read_surface(command, input);
     anisomesh::MeshReport report;
-    const auto result = anisomesh::build_polygons(mesh, polygons, &report, command.progress("polygons"));
+    auto result = anisomesh::build_polygons(mesh, polygons, &report, command.progress("polygons"));
+    if (fit.enabled)
+      command.report()["fit"] =
+          apps::to_json(anisomesh::fit_vertices(mesh, result, fit, command.progress("fit")));
     command.stop_if_cancelled();
     anisomesh::write_mesh(result, output);
     command.report()["mesh"] = apps::to_json(report);

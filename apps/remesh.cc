@@ -54,6 +54,7 @@ int main(int argc, char* argv[]) {
   apps::add_domain_option(command, options.domain);
   apps::add_smoothing_options(command, options.smoothing);
   apps::add_mesh_options(command, options.mesh);
+  apps::add_fit_options(command, options.fit);
 
   return command.run(argc, argv, [&] {
     options.trace.density.epsilon_fraction = epsilon.epsilon;
@@ -77,6 +78,7 @@ int main(int argc, char* argv[]) {
     command.report()["smoothing"] = apps::to_json(report.smoothing);
     command.report()["umbilics"] = apps::to_json(report.umbilics);
     apps::add_json(command.report(), report);
+    if (options.fit.enabled) command.report()["fit"] = apps::to_json(report.fit);
     command.report()["result"] = apps::mesh_json(result);
     command.report()["output"] = output;
     command.say(output + ": " + apps::mesh_summary(result));
@@ -87,7 +89,9 @@ int main(int argc, char* argv[]) {
                 apps::seconds(report.smoothing.seconds) + ", umbilics " +
                 apps::seconds(report.umbilics.seconds) + ", lines " + apps::seconds(report.trace.seconds) +
                 ", isotropic " + apps::seconds(report.isotropic.seconds) + ", polygons " +
-                apps::seconds(report.mesh.seconds) + "; all " + apps::seconds(report.seconds) +
+                apps::seconds(report.mesh.seconds) +
+                (options.fit.enabled ? ", fit " + apps::seconds(report.fit.seconds) : "") + "; all " +
+                apps::seconds(report.seconds) +
                 (report.attempts > 1 ? " with " + std::to_string(report.attempts) + " attempts" : ""));
     if (!report.target_met) command.warn("the count nearest to the target is off by more than 10 %");
     if (page.empty()) return;

@@ -181,6 +181,16 @@ void add_mesh_options(Command& command, MeshOptions& options, const std::string&
       ->group(heading);
 }
 
+void add_fit_options(Command& command, FitOptions& options) {
+  CLI::App& app = command.arguments();
+  app.add_flag("--fit,!--no-fit", options.enabled,
+               "Move the vertices off the surface to where the error is least")
+      ->group("Fit");
+  app.add_option("--fit-passes", options.passes, "Matched and solved at most so often, >= 1")
+      ->type_name("N")
+      ->group("Fit");
+}
+
 FeatureOptions resolve(const FeatureFlags& flags, const ReadReport& read) {
   FeatureOptions options;
   options.angle_degrees = flags.angle_degrees;

@@ -106,6 +106,11 @@ Json to_json(const MeshReport& r) {
           {"seconds", r.seconds}};
 }
 
+Json to_json(const FitReport& r) {
+  return {{"rms_before", r.rms_before}, {"rms_after", r.rms_after}, {"passes", r.passes},
+          {"moved", r.moved},           {"held", r.held},           {"seconds", r.seconds}};
+}
+
 void add_json(Json& json, const TraceAndMeshReport& r) {
   json["epsilon_fraction"] = r.epsilon_fraction;
   json["attempts"] = r.attempts;

@@ -23,6 +23,7 @@ Json to_json(const anisomesh::UmbilicReport& report);
 Json to_json(const anisomesh::TraceReport& report);
 Json to_json(const anisomesh::IsotropicReport& report);
 Json to_json(const anisomesh::MeshReport& report);
+Json to_json(const anisomesh::FitReport& report);
 Json to_json(const anisomesh::Comparison& comparison);
 /// The domain and, in the plane, the flattening, into `json`.
 void add_json(Json& json, const anisomesh::DomainReport& report);

@@ -11,6 +11,7 @@ void RemeshOptions::validate() const {
   smoothing.validate();
   trace.validate();
   mesh.validate();
+  fit.validate();
 }
 
 OpenMesh::PolyMesh remesh(const SurfaceRef& surface, const RemeshOptions& options, RemeshReport* report,
@@ -26,7 +27,9 @@ OpenMesh::PolyMesh remesh(const SurfaceRef& surface, const RemeshOptions& option
   report_progress(progress, 0.4);
   done.umbilics = find_umbilics(surface);
   OpenMesh::PolyMesh result =
-      trace_and_mesh(surface, options.trace, options.mesh, options, &done, sub_progress(progress, 0.4, 1));
+      trace_and_mesh(surface, options.trace, options.mesh, options, &done, sub_progress(progress, 0.4, options.fit.enabled ? 0.8 : 1));
+  if (options.fit.enabled)
+    done.fit = fit_vertices(surface, result, options.fit, sub_progress(progress, 0.8, 1));
   done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (report) *report = done;
   return result;

@@ -7,6 +7,7 @@
 #include "anisomesh/curvature.hh"
 #include "anisomesh/domain.hh"
 #include "anisomesh/features.hh"
+#include "anisomesh/fit.hh"
 #include "anisomesh/lines.hh"
 #include "anisomesh/mesher.hh"
 #include "anisomesh/smoothing.hh"
@@ -29,6 +30,7 @@ struct RemeshOptions : TargetOptions {
   SmoothingOptions smoothing;
   TraceOptions trace;  ///< trace.density.epsilon_fraction is ignored where a target is given
   MeshOptions mesh;
+  FitOptions fit;
   void validate() const;  ///< \throw InvalidOption
 };
 
@@ -56,6 +58,7 @@ struct RemeshReport : TraceAndMeshReport {
   DomainReport domain;
   SmoothingReport smoothing;
   UmbilicReport umbilics;
+  FitReport fit;  ///< all 0 unless FitOptions::enabled
   double seconds = 0;
 };
 
@@ -68,7 +71,7 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
                                   TraceAndMeshReport* report = nullptr, const Progress& progress = {});
 
 /// Remeshes a surface: tag_features, estimate_curvature, choose_domain, smooth_tensors, find_umbilics,
-/// trace_lines, place_isotropic_samples, build_polygons. [ACDLD03]
+/// trace_lines, place_isotropic_samples, build_polygons, fit_vertices. [ACDLD03]
 /// Reads: points, edge feature status. Writes: on the input mesh the properties of all stages; after a throw
 /// or a cancel those of the stages that were done by then.
 /// \pre in the plane, one component with one border loop \throw InvalidOption, InvalidInput, CannotProcess,

@@ -1,0 +1,117 @@
+#include "fit_guard.hh"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace anisomesh::detail {
+
+namespace {
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double least_fullness = 2e-2;       // or as much as the polygon had before
+constexpr double most_reflex = 2 * pi / 180;  // the result is held to 5 degrees
+constexpr double least_cosine = 0.35;         // between a polygon and its part of the input
+constexpr double least_bend = 0.5;            // between the triangles of a polygon
+constexpr double least_fold = -0.5;           // between neighbours
+constexpr int halvings = 5;
+
+}  // namespace
+
+FitGuard::FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const std::vector<FitPair>& pairs)
+    : mesh_(mesh), normals_(static_cast<size_t>(mesh.n_polygons()), Vec3d(0, 0, 0)) {
+  std::vector<int> polygon_of(triangles.corner.size());
+  for (int p = 0; p < mesh.n_polygons(); ++p)
+    for (int t = triangles.first[at(p)]; t < triangles.first[at(p) + 1]; ++t) polygon_of[at(t)] = p;
+  for (const FitPair& pair : pairs)
+    if (pair.triangle >= 0) normals_[at(polygon_of[at(pair.triangle)])] += pair.weight * pair.normal;
+  for (Vec3d& n : normals_) {
+    const double length = n.norm();
+    if (length > 0) n /= length;
+  }
+}
+
+FitGuard::Shape FitGuard::shape_of(int polygon, const std::vector<Vec3d>& points) const {
+  const int n = mesh_.degree(polygon);
+  const int* v = mesh_.begin(polygon);
+  const auto place = [&](int i) { return points[at(v[(i + n) % n])]; };
+  Shape shape;
+  Vec3d area(0, 0, 0);
+  double squared = 0;
+  for (int i = 0; i < n; ++i) {
+    if (i > 0 && i + 1 < n) area += cross(place(i) - place(0), place(i + 1) - place(0));
+    for (int j = 0; j < i; ++j) squared = std::max(squared, (place(i) - place(j)).sqrnorm());
+  }
+  const double length = area.norm();
+  if (!(length > 0)) return shape;
+  shape.normal = area / length;
+  shape.fullness = length / squared;
+  shape.least_turn = pi;
+  for (int i = 0; i < n; ++i) {
+    const Vec3d in = place(i) - place(i - 1), out = place(i + 1) - place(i);
+    const double turn =
+        std::atan2(cross(in, out) | shape.normal, (in | out) - (in | shape.normal) * (out | shape.normal));
+    shape.least_turn = std::min(shape.least_turn, turn);
+    const Vec3d corner = cross(in, out);
+    const double norm = corner.norm();
+    if (n > 3 && norm > 0) shape.bend = std::min(shape.bend, (corner | shape.normal) / norm);
+  }
+  return shape;
+}
+
+// Sound, or at least no worse than before.
+bool FitGuard::is_sound(int polygon, const Shape& shape, const Shape& before) const {
+  const Vec3d& wanted = normals_[at(polygon)];
+  return shape.fullness >= std::min(least_fullness, before.fullness) &&
+         (mesh_.degree(polygon) == 3 || shape.least_turn >= std::min(-most_reflex, before.least_turn)) &&
+         shape.bend >= std::min(least_bend, before.bend) &&
+         (shape.normal | wanted) >= std::min(least_cosine, before.normal | wanted);
+}
+
+std::vector<char> FitGuard::unsound(const std::vector<Vec3d>& points,
+                                    const std::vector<Shape>& before) const {
+  const auto n = static_cast<size_t>(mesh_.n_polygons());
+  std::vector<Shape> shape(n);
+  std::vector<char> bad(n, 0);
+  tbb::parallel_for(size_t{0}, n, [&](size_t p) {
+    shape[p] = shape_of(static_cast<int>(p), points);
+    bad[p] = !is_sound(static_cast<int>(p), shape[p], before[p]);
+  });
+  for (int p = 0; p < mesh_.n_polygons(); ++p)
+    for (int i = mesh_.first_around[at(p)]; i < mesh_.first_around[at(p) + 1]; ++i) {
+      const int q = mesh_.around[at(i)];
+      const double cosine = shape[at(p)].normal | shape[at(q)].normal;
+      if (cosine < least_fold && cosine < (before[at(p)].normal | before[at(q)].normal))
+        bad[at(p)] = bad[at(q)] = 1;
+    }
+  return bad;
+}
+
+std::vector<Vec3d> FitGuard::move(const std::vector<Vec3d>& points, const std::vector<Vec3d>& step,
+                                  size_t& held) const {
+  std::vector<Shape> before(static_cast<size_t>(mesh_.n_polygons()));
+  tbb::parallel_for(size_t{0}, before.size(),
+                    [&](size_t p) { before[p] = shape_of(static_cast<int>(p), points); });
+  std::vector<double> share(points.size(), 1);
+  std::vector<Vec3d> moved(points.size());
+  // Once no share of an unsound polygon is left it is what it was before, which is as sound as it need be.
+  for (int round = 0;; ++round) {
+    for (size_t v = 0; v < points.size(); ++v) moved[v] = points[v] + share[v] * step[v];
+    const auto bad = unsound(moved, before);
+    if (std::find(bad.begin(), bad.end(), 1) == bad.end()) break;
+    std::vector<char> less(points.size(), 0);
+    for (int p = 0; p < mesh_.n_polygons(); ++p)
+      if (bad[at(p)])
+        for (const int* v = mesh_.begin(p); v != mesh_.end(p); ++v) less[at(*v)] = 1;
+    for (size_t v = 0; v < points.size(); ++v)
+      if (less[v]) share[v] = round < halvings ? share[v] / 2 : 0;
+  }
+  held = 0;
+  for (size_t v = 0; v < points.size(); ++v) held += share[v] < 1 && step[v].sqrnorm() > 0;
+  return moved;
+}
+
+}  // namespace anisomesh::detail

@@ -1,0 +1,35 @@
+// Keeps polygons sound while their vertices move.
+#pragma once
+
+#include <vector>
+
+#include "fit_matching.hh"
+
+namespace anisomesh::detail {
+
+class FitGuard {
+ public:
+  /// \param pairs which part of the input each polygon stands for
+  FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const std::vector<FitPair>& pairs);
+
+  /// points + share * step, where the share of each vertex is the largest of 1, 1/2, 1/4 ... 0 for which no
+  /// polygon becomes folded, concave or a sliver. \param held counts vertices with a share below 1
+  std::vector<Vec3d> move(const std::vector<Vec3d>& points, const std::vector<Vec3d>& step,
+                          size_t& held) const;
+
+ private:
+  struct Shape {
+    Vec3d normal{0, 0, 0};  // unit
+    double fullness = 0;    // twice the area over the squared diameter
+    double least_turn = 0;  // of its corners, radians; negative where it is concave
+    double bend = 1;        // least cosine of two of its triangles
+  };
+  Shape shape_of(int polygon, const std::vector<Vec3d>& points) const;
+  bool is_sound(int polygon, const Shape& shape, const Shape& before) const;
+  std::vector<char> unsound(const std::vector<Vec3d>& points, const std::vector<Shape>& before) const;
+
+  const FitMesh& mesh_;
+  std::vector<Vec3d> normals_;  // of the input, for each polygon; zero where none is known
+};
+
+}  // namespace anisomesh::detail

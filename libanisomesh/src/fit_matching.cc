@@ -1,0 +1,259 @@
+#include "fit_matching.hh"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace anisomesh::detail {
+
+namespace {
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+constexpr double input_samples = 12, result_samples = 6;  // for each triangle of the result, at least
+constexpr double inside = 2.5;     // distances: a foot as far from all sides needs no closer look
+constexpr int starts = 6;          // places to look from, for a sample of the result
+constexpr int max_divisions = 24;  // of the sides of one triangle
+constexpr double tiny = 1e-9;      // of the diagonal: nearer than this there is no direction
+
+Vec3d area_vector(const SurfaceRef& surface, OpenMesh::FaceHandle face) {
+  const auto c = surface.corners(face);
+  const Vec3d& a = surface.point(c.vertex[0]);
+  return cross(surface.point(c.vertex[1]) - a, surface.point(c.vertex[2]) - a);
+}
+
+/// Calls `visit` with the barycentric coordinates of the centres of n * n equal pieces.
+template <class Visit>
+void for_each_piece(int n, Visit visit) {
+  const double step = 1.0 / n;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; i + j < n; ++j) {
+      const double u = (i + 1.0 / 3) * step, v = (j + 1.0 / 3) * step;
+      visit(Vec3d(1 - u - v, u, v));
+      if (i + j + 1 >= n) continue;
+      const double s = (i + 2.0 / 3) * step, t = (j + 2.0 / 3) * step;
+      visit(Vec3d(1 - s - t, s, t));
+    }
+}
+
+int divisions(double area, double share) {
+  return std::clamp(static_cast<int>(std::ceil(std::sqrt(area / share))), 1, max_divisions);
+}
+
+// Whether no neighbour can be nearer: the foot is so far inside that only one bent over it would be.
+bool is_surely_inside(const FitTriangles& triangles, int t, const Vec3d& barycentric, double squared) {
+  const Vec3d& height = triangles.height[at(t)];
+  const double margin =
+      std::min({barycentric[0] * height[0], barycentric[1] * height[1], barycentric[2] * height[2]});
+  return margin * margin > inside * inside * squared;
+}
+
+}  // namespace
+
+FitMatching::FitMatching(const SurfaceRef& surface, const FitMesh& mesh,
+                         const std::vector<OpenMesh::FaceHandle>& sources, const FitTriangles& triangles,
+                         const std::vector<Vec3d>& points)
+    : surface_(surface),
+      mesh_(mesh),
+      locator_(surface),
+      sources_(sources),
+      n_triangles_(triangles.corner.size()) {
+  place_samples();
+  flood(sources, triangles, points);
+}
+
+void FitMatching::place_samples() {
+  const auto& mesh = surface_.connectivity();
+  double total = 0;
+  std::vector<double> areas;
+  for (const auto f : mesh.faces()) {
+    const Vec3d n = area_vector(surface_, f);
+    const double twice = n.norm();
+    normals_.push_back(twice > 0 ? n / twice : Vec3d(0, 0, 0));
+    areas.push_back(0.5 * twice);
+    total += areas.back();
+  }
+  const double share = total / (input_samples * static_cast<double>(n_triangles_));
+  for (const auto f : mesh.faces()) {
+    first_sample_.push_back(static_cast<int>(samples_.size()));
+    if (!(areas[at(f.idx())] > 0)) continue;
+    const auto c = surface_.corners(f);
+    const int n = divisions(areas[at(f.idx())], share);
+    for_each_piece(n, [&](const Vec3d& b) {
+      Sample sample;
+      for (size_t k = 0; k < 3; ++k) sample.place += b[k] * surface_.point(c.vertex[k]);
+      sample.face = f.idx();
+      sample.weight = areas[at(f.idx())] / (n * n * total);
+      samples_.push_back(sample);
+    });
+  }
+  first_sample_.push_back(static_cast<int>(samples_.size()));
+}
+
+// Goes from polygon to polygon as long as there is a nearer one that faces the same way.
+bool FitMatching::nearest(const Vec3d& place, const Vec3d& normal, const FitTriangles& triangles,
+                          const std::vector<Vec3d>& points, int& polygon, FitPair& pair) const {
+  double best = std::numeric_limits<double>::infinity();
+  int found = polygon;
+  const auto look = [&](int p, bool any_side) {
+    const double away = (place - triangles.centre[at(p)]).norm() - triangles.radius[at(p)];
+    if (away > 0 && away * away >= best) return;
+    for (int t = triangles.first[at(p)]; t < triangles.first[at(p) + 1]; ++t) {
+      if (!any_side && !((triangles.normal[at(t)] | normal) > 0)) continue;
+      const Triangle& corner = triangles.corner[at(t)];
+      const Vec3d &a = points[at(corner[0])], &b = points[at(corner[1])], &c = points[at(corner[2])];
+      const Vec3d w = closest_barycentric(place, a, b, c);
+      const double squared = (w[0] * a + w[1] * b + w[2] * c - place).sqrnorm();
+      if (!(squared < best)) continue;
+      best = squared;
+      found = p;
+      pair.triangle = t;
+      pair.barycentric = w;
+    }
+  };
+  look(polygon, false);
+  if (pair.triangle >= 0 && is_surely_inside(triangles, pair.triangle, pair.barycentric, best)) {
+    pair.distance = std::sqrt(best);
+    return true;
+  }
+  for (int current = -1; current != found;) {
+    current = found;
+    for (int i = mesh_.first_around[at(current)]; i < mesh_.first_around[at(current) + 1]; ++i)
+      look(mesh_.around[at(i)], false);
+  }
+  if (pair.triangle < 0) look(polygon, true);  // all around face the other way
+  polygon = found;
+  if (pair.triangle < 0) return false;
+  pair.distance = std::sqrt(best);
+  return true;
+}
+
+// Every face gets a polygon to start from, handed on from face to face from those the vertices lie in.
+void FitMatching::flood(const std::vector<OpenMesh::FaceHandle>& sources, const FitTriangles& triangles,
+                        const std::vector<Vec3d>& points) {
+  const auto& mesh = surface_.connectivity();
+  std::vector<int> polygon(mesh.n_faces(), -1);
+  std::vector<int> queue;
+  const auto settle = [&](OpenMesh::FaceHandle face, int start) {
+    if (polygon[at(face.idx())] >= 0) return;
+    const auto c = surface_.corners(face);
+    const Vec3d centre =
+        (surface_.point(c.vertex[0]) + surface_.point(c.vertex[1]) + surface_.point(c.vertex[2])) / 3.0;
+    FitPair pair;
+    nearest(centre, normals_[at(face.idx())], triangles, points, start, pair);
+    polygon[at(face.idx())] = start;
+    queue.push_back(face.idx());
+  };
+  const auto is_wall = [&](OpenMesh::EdgeHandle e) {
+    return mesh.has_edge_status() && mesh.status(e).feature();
+  };
+  for (int v = 0; v < mesh_.n_vertices; ++v) {
+    if (mesh_.first_polygon[at(v)] == mesh_.first_polygon[at(v) + 1]) continue;
+    // The polygon at the vertex that this face lies in, not the one on the other side of a feature.
+    int best = -1;
+    double least = std::numeric_limits<double>::infinity();
+    const auto face = sources[at(v)];
+    const auto c = surface_.corners(face);
+    const Vec3d centre =
+        (surface_.point(c.vertex[0]) + surface_.point(c.vertex[1]) + surface_.point(c.vertex[2])) / 3.0;
+    for (int i = mesh_.first_polygon[at(v)]; i < mesh_.first_polygon[at(v) + 1]; ++i) {
+      const int p = mesh_.polygons[at(i)];
+      const double far = (triangles.centre[at(p)] - centre).sqrnorm();
+      if (far < least) least = far, best = p;
+    }
+    settle(face, best);
+  }
+  for (size_t i = 0; i < queue.size(); ++i) {
+    const OpenMesh::FaceHandle face(queue[i]);
+    for (const auto h : mesh.fh_range(face)) {
+      const auto next = mesh.face_handle(mesh.opposite_halfedge_handle(h));
+      if (next.is_valid() && !is_wall(mesh.edge_handle(h))) settle(next, polygon[at(face.idx())]);
+    }
+    // Sides of features that no vertex lies on are reached across them, after everything else.
+    if (i + 1 < queue.size()) continue;
+    for (const auto e : mesh.edges()) {
+      const auto f = mesh.face_handle(mesh.halfedge_handle(e, 0)),
+                 g = mesh.face_handle(mesh.halfedge_handle(e, 1));
+      if (!f.is_valid() || !g.is_valid()) continue;
+      if (polygon[at(f.idx())] >= 0 && polygon[at(g.idx())] < 0) settle(g, polygon[at(f.idx())]);
+      if (polygon[at(g.idx())] >= 0 && polygon[at(f.idx())] < 0) settle(f, polygon[at(g.idx())]);
+    }
+  }
+  for (Sample& sample : samples_) sample.polygon = polygon[at(sample.face)];
+}
+
+const std::vector<FitPair>& FitMatching::match(const FitTriangles& triangles,
+                                               const std::vector<Vec3d>& points) {
+  const double least = tiny * surface_.diagonal();
+  pairs_.assign(samples_.size(), FitPair());
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, samples_.size(), 512), [&](const auto& range) {
+    for (size_t i = range.begin(); i != range.end(); ++i) {
+      Sample& sample = samples_[i];
+      FitPair& pair = pairs_[i];
+      if (sample.polygon < 0) continue;
+      pair.normal = normals_[at(sample.face)];
+      if (!nearest(sample.place, pair.normal, triangles, points, sample.polygon, pair)) continue;
+      pair.weight = sample.weight;
+      const Triangle& corner = triangles.corner[at(pair.triangle)];
+      Vec3d away = sample.place;
+      for (int k = 0; k < 3; ++k) away -= pair.barycentric[k] * points[at(corner[at(k)])];
+      pair.direction = pair.distance > least ? away / pair.distance : triangles.normal[at(pair.triangle)];
+    }
+  });
+  match_result(triangles, points);
+  return pairs_;
+}
+
+void FitMatching::match_result(const FitTriangles& triangles, const std::vector<Vec3d>& points) {
+  const size_t n_input = samples_.size();
+  const double least = tiny * surface_.diagonal();
+  double total = 0;
+  for (const double a : triangles.area) total += a;
+  const double share = total / (result_samples * static_cast<double>(triangles.corner.size()));
+  // The samples of the input matched with each triangle: where to look from.
+  std::vector<int> first(triangles.corner.size() + 1, 0), matched(n_input);
+  for (size_t i = 0; i < n_input; ++i)
+    if (pairs_[i].triangle >= 0) ++first[at(pairs_[i].triangle) + 1];
+  for (size_t t = 0; t + 1 < first.size(); ++t) first[t + 1] += first[t];
+  std::vector<int> next(first.begin(), first.end() - 1);
+  for (size_t i = 0; i < n_input; ++i)
+    if (pairs_[i].triangle >= 0) matched[at(next[at(pairs_[i].triangle)]++)] = static_cast<int>(i);
+  std::vector<int> begin(triangles.corner.size() + 1, 0);
+  for (size_t t = 0; t < triangles.corner.size(); ++t) {
+    const int n = triangles.area[t] > 0 ? divisions(triangles.area[t], share) : 0;
+    begin[t + 1] = begin[t] + n * n;
+  }
+  pairs_.resize(n_input + at(begin.back()));
+  tbb::parallel_for(size_t{0}, triangles.corner.size(), [&](size_t t) {
+    if (begin[t] == begin[t + 1]) return;
+    const Triangle& corner = triangles.corner[t];
+    const Vec3d &a = points[at(corner[0])], &b = points[at(corner[1])], &c = points[at(corner[2])];
+    const int n = static_cast<int>(std::lround(std::sqrt(begin[t + 1] - begin[t])));
+    size_t index = n_input + at(begin[t]);
+    for_each_piece(n, [&](const Vec3d& w) {
+      const Vec3d place = w[0] * a + w[1] * b + w[2] * c;
+      OpenMesh::FaceHandle start =
+          sources_[at(corner[w[0] > w[1] ? (w[0] > w[2] ? 0 : 2) : (w[1] > w[2] ? 1 : 2)])];
+      double nearest_start = std::numeric_limits<double>::infinity();
+      const int stride = std::max(1, (first[t + 1] - first[t]) / starts);
+      for (int i = first[t]; i < first[t + 1]; i += stride) {
+        const Sample& sample = samples_[at(matched[at(i)])];
+        const double far = (sample.place - place).sqrnorm();
+        if (far < nearest_start) nearest_start = far, start = OpenMesh::FaceHandle(sample.face);
+      }
+      const SurfacePoint found = locator_.locate(Vec2d(0, 0), place, start);
+      const Vec3d away = position(surface_, found) - place;
+      FitPair& pair = pairs_[index++];
+      pair.triangle = static_cast<int>(t);
+      pair.barycentric = w;
+      pair.normal = normals_[at(found.face.idx())];
+      pair.distance = away.norm();
+      pair.direction = pair.distance > least ? away / pair.distance : pair.normal;
+      pair.weight = triangles.area[t] / (n * n * total);
+    });
+  });
+}
+
+}  // namespace anisomesh::detail

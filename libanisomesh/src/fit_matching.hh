@@ -1,0 +1,59 @@
+// Which place of the result each place of the input stands beside, and the other way round.
+#pragma once
+
+#include <vector>
+
+#include "anisomesh/surface.hh"
+#include "fit_mesh.hh"
+#include "near_locator.hh"
+
+namespace anisomesh::detail {
+
+/// Squared distance of one sample to the other mesh, as the fit sees it: it changes by
+/// weight * (direction | step of the place in the triangle).
+struct FitPair {
+  int triangle = -1;           ///< of the result
+  Vec3d barycentric{0, 0, 0};  ///< in it
+  Vec3d direction{0, 0, 0};    ///< unit, from the result to the input
+  Vec3d normal{0, 0, 0};       ///< of the input there
+  double distance = 0;         ///< along `direction`, >= 0
+  double weight = 0;           ///< share of the area of the mesh it was sampled on
+};
+
+/// Samples of the input keep the polygon they were matched with, and find the next one from there: a place
+/// on one side of a thin sheet never passes to the other, and features are not crossed.
+class FitMatching {
+ public:
+  FitMatching(const SurfaceRef& surface, const FitMesh& mesh,
+              const std::vector<OpenMesh::FaceHandle>& sources, const FitTriangles& triangles,
+              const std::vector<Vec3d>& points);
+
+  /// Pairs of both ways, those of the input first; each way's weights add up to 1.
+  const std::vector<FitPair>& match(const FitTriangles& triangles, const std::vector<Vec3d>& points);
+
+ private:
+  struct Sample {
+    Vec3d place{0, 0, 0};
+    int face = -1;
+    double weight = 0;
+    int polygon = -1;
+  };
+  void place_samples();
+  void flood(const std::vector<OpenMesh::FaceHandle>& sources, const FitTriangles& triangles,
+             const std::vector<Vec3d>& points);
+  bool nearest(const Vec3d& place, const Vec3d& normal, const FitTriangles& triangles,
+               const std::vector<Vec3d>& points, int& polygon, FitPair& pair) const;
+  void match_result(const FitTriangles& triangles, const std::vector<Vec3d>& points);
+
+  const SurfaceRef& surface_;
+  const FitMesh& mesh_;
+  NearLocator locator_;
+  std::vector<Vec3d> normals_;  // of the input's faces
+  std::vector<OpenMesh::FaceHandle> sources_;
+  std::vector<Sample> samples_;
+  std::vector<int> first_sample_;  // of each face
+  std::vector<FitPair> pairs_;
+  size_t n_triangles_ = 0;
+};
+
+}  // namespace anisomesh::detail
