@@ -4,57 +4,19 @@
 //
 // Both read the same file and write one. The runs alternate, so that both see the same load of the machine;
 // the median of each is compared. Exits 1 if a bar is missed, 77 if the mesh or the decimater is not there.
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cstring>
-#include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "bench.hh"
-
-extern char** environ;  // NOLINT: POSIX declares it nowhere
+#include "programs.hh"
 
 using namespace anisomesh;
+using bench::Cost;
+using bench::run;
 
 namespace {
-
-struct Cost {
-  double wall = 0, processor = 0;  // seconds
-};
-
-/// Runs a program to its end, its output thrown away. \throw std::runtime_error unless it exits with 0
-Cost run(const std::vector<std::string>& words) {
-  std::vector<char*> arguments;
-  for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t quiet;
-  posix_spawn_file_actions_init(&quiet);
-  posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&quiet, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  const auto start = std::chrono::steady_clock::now();
-  pid_t child = 0;
-  const int failure = posix_spawnp(&child, arguments[0], &quiet, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&quiet);
-  if (failure != 0) throw std::runtime_error(words[0] + ": " + std::strerror(failure));
-  int status = 0;
-  rusage usage{};
-  wait4(child, &status, 0, &usage);
-  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw std::runtime_error(words[0] + " failed with status " + std::to_string(status));
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return {wall, seconds(usage.ru_utime) + seconds(usage.ru_stime)};
-}
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -78,9 +40,7 @@ void print_row(const char* name, const Comparison& c, const Series& series) {
 
 int compare_with_decimater(const std::string& input, const std::string& program, const std::string& faces,
                            int runs) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("anisomesh-versus-" + std::to_string(getpid()));
-  std::filesystem::create_directory(folder);
+  const bench::Folder folder;
   const std::string ours = folder / "remesh.off", theirs = folder / "decimated.off";
   run({program, input, "-o", ours, "--target-faces", faces, "--quiet"});
   auto result = read_polygons(ours);
@@ -92,7 +52,6 @@ int compare_with_decimater(const std::string& input, const std::string& program,
     remesh.add(run({program, input, "-o", ours, "--target-faces", faces, "--quiet"}));
   }
   auto decimated = read_polygons(theirs);
-  std::filesystem::remove_all(folder);
   bench::Ruler ruler(read_surface(input));
   std::printf(
       "| tool | vertices | faces | quads | rms %% | hausdorff %% | align | normal | folded | wall s | cpu s "
@@ -124,7 +83,7 @@ int main(int argc, char** argv) {
     std::printf("SKIPPED: mannequin-devil.off is not in the folder ANISOMESH_DATA names\n");
     return 77;
   }
-  if (std::system("command -v OpenMesh-commandlineDecimater > /dev/null") != 0) {
+  if (!bench::is_installed("OpenMesh-commandlineDecimater")) {
     std::printf("SKIPPED: OpenMesh-commandlineDecimater (package libopenmesh-apps) is not installed\n");
     return 77;
   }

@@ -17,17 +17,19 @@ constexpr double most_reflex = 2 * pi / 180;  // the result is held to 5 degrees
 constexpr double least_cosine = 0.35;         // between a polygon and its part of the input
 constexpr double least_bend = 0.5;            // between the triangles of a polygon
 constexpr double least_fold = -0.5;           // between neighbours
-constexpr int halvings = 5;
+constexpr int halvings = 5, max_rounds = 100;
 
 }  // namespace
 
-FitGuard::FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const std::vector<FitPair>& pairs)
+FitGuard::FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const FitInput& input,
+                   const std::vector<FitPair>& pairs)
     : mesh_(mesh), normals_(static_cast<size_t>(mesh.n_polygons()), Vec3d(0, 0, 0)) {
   std::vector<int> polygon_of(triangles.corner.size());
   for (int p = 0; p < mesh.n_polygons(); ++p)
     for (int t = triangles.first[at(p)]; t < triangles.first[at(p) + 1]; ++t) polygon_of[at(t)] = p;
   for (const FitPair& pair : pairs)
-    if (pair.triangle >= 0) normals_[at(polygon_of[at(pair.triangle)])] += pair.weight * pair.normal;
+    if (pair.triangle >= 0)
+      normals_[at(polygon_of[at(pair.triangle)])] += pair.weight * input.normal[at(pair.face)];
   for (Vec3d& n : normals_) {
     const double length = n.norm();
     if (length > 0) n /= length;
@@ -90,28 +92,32 @@ std::vector<char> FitGuard::unsound(const std::vector<Vec3d>& points,
   return bad;
 }
 
-std::vector<Vec3d> FitGuard::move(const std::vector<Vec3d>& points, const std::vector<Vec3d>& step,
-                                  size_t& held) const {
+std::vector<Vec3d> FitGuard::move(
+    const std::vector<Vec3d>& points, const std::vector<Vec3d>& step,
+    const std::function<void(const std::vector<Vec3d>&, std::vector<char>&)>& strays, size_t& held) const {
   std::vector<Shape> before(static_cast<size_t>(mesh_.n_polygons()));
   tbb::parallel_for(size_t{0}, before.size(),
                     [&](size_t p) { before[p] = shape_of(static_cast<int>(p), points); });
   std::vector<double> share(points.size(), 1);
   std::vector<Vec3d> moved(points.size());
   // Once no share of an unsound polygon is left it is what it was before, which is as sound as it need be.
-  for (int round = 0;; ++round) {
+  for (int round = 0; round < max_rounds; ++round) {
     for (size_t v = 0; v < points.size(); ++v) moved[v] = points[v] + share[v] * step[v];
     const auto bad = unsound(moved, before);
-    if (std::find(bad.begin(), bad.end(), 1) == bad.end()) break;
     std::vector<char> less(points.size(), 0);
     for (int p = 0; p < mesh_.n_polygons(); ++p)
       if (bad[at(p)])
         for (const int* v = mesh_.begin(p); v != mesh_.end(p); ++v) less[at(*v)] = 1;
+    strays(moved, less);
+    if (std::find(less.begin(), less.end(), 1) == less.end()) {
+      held = 0;
+      for (size_t v = 0; v < points.size(); ++v) held += share[v] < 1 && step[v].sqrnorm() > 0;
+      return moved;
+    }
     for (size_t v = 0; v < points.size(); ++v)
       if (less[v]) share[v] = round < halvings ? share[v] / 2 : 0;
   }
-  held = 0;
-  for (size_t v = 0; v < points.size(); ++v) held += share[v] < 1 && step[v].sqrnorm() > 0;
-  return moved;
+  return points;
 }
 
 }  // namespace anisomesh::detail

@@ -1,6 +1,7 @@
 // Keeps polygons sound while their vertices move.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "fit_matching.hh"
@@ -10,11 +11,14 @@ namespace anisomesh::detail {
 class FitGuard {
  public:
   /// \param pairs which part of the input each polygon stands for
-  FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const std::vector<FitPair>& pairs);
+  FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const FitInput& input,
+           const std::vector<FitPair>& pairs);
 
   /// points + share * step, where the share of each vertex is the largest of 1, 1/2, 1/4 ... 0 for which no
-  /// polygon becomes folded, concave or a sliver. \param held counts vertices with a share below 1
+  /// polygon becomes folded, concave or a sliver. \param strays marks further vertices that have gone too far
+  /// \param held counts vertices with a share below 1
   std::vector<Vec3d> move(const std::vector<Vec3d>& points, const std::vector<Vec3d>& step,
+                          const std::function<void(const std::vector<Vec3d>&, std::vector<char>&)>& strays,
                           size_t& held) const;
 
  private:

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "anisomesh/properties.hh"
+
 namespace anisomesh::detail {
 
 namespace {
@@ -52,10 +54,27 @@ bool is_surely_inside(const FitTriangles& triangles, int t, const Vec3d& barycen
 
 }  // namespace
 
-FitMatching::FitMatching(const SurfaceRef& surface, const FitMesh& mesh,
+FitInput::FitInput(const SurfaceRef& surface) {
+  const auto& mesh = surface.connectivity();
+  for (const auto f : mesh.faces()) {
+    const Vec3d n = area_vector(surface, f);
+    const double twice = n.norm();
+    normal.push_back(twice > 0 ? n / twice : Vec3d(0, 0, 0));
+    area.push_back(0.5 * twice);
+  }
+  if (!has_property(mesh, property::tensor)) return;
+  const auto of_vertex = require_property(mesh, property::tensor);
+  for (const auto f : mesh.faces()) {
+    tensor.emplace_back(0.0);
+    for (const auto v : surface.corners(f).vertex) tensor.back() += mesh.property(of_vertex, v) / 3.0;
+  }
+}
+
+FitMatching::FitMatching(const SurfaceRef& surface, const FitInput& input, const FitMesh& mesh,
                          const std::vector<OpenMesh::FaceHandle>& sources, const FitTriangles& triangles,
                          const std::vector<Vec3d>& points)
     : surface_(surface),
+      input_(input),
       mesh_(mesh),
       locator_(surface),
       sources_(sources),
@@ -67,25 +86,18 @@ FitMatching::FitMatching(const SurfaceRef& surface, const FitMesh& mesh,
 void FitMatching::place_samples() {
   const auto& mesh = surface_.connectivity();
   double total = 0;
-  std::vector<double> areas;
-  for (const auto f : mesh.faces()) {
-    const Vec3d n = area_vector(surface_, f);
-    const double twice = n.norm();
-    normals_.push_back(twice > 0 ? n / twice : Vec3d(0, 0, 0));
-    areas.push_back(0.5 * twice);
-    total += areas.back();
-  }
+  for (const double area : input_.area) total += area;
   const double share = total / (input_samples * static_cast<double>(n_triangles_));
   for (const auto f : mesh.faces()) {
     first_sample_.push_back(static_cast<int>(samples_.size()));
-    if (!(areas[at(f.idx())] > 0)) continue;
+    if (!(input_.area[at(f.idx())] > 0)) continue;
     const auto c = surface_.corners(f);
-    const int n = divisions(areas[at(f.idx())], share);
+    const int n = divisions(input_.area[at(f.idx())], share);
     for_each_piece(n, [&](const Vec3d& b) {
       Sample sample;
       for (size_t k = 0; k < 3; ++k) sample.place += b[k] * surface_.point(c.vertex[k]);
       sample.face = f.idx();
-      sample.weight = areas[at(f.idx())] / (n * n * total);
+      sample.weight = input_.area[at(f.idx())] / (n * n * total);
       samples_.push_back(sample);
     });
   }
@@ -142,7 +154,7 @@ void FitMatching::flood(const std::vector<OpenMesh::FaceHandle>& sources, const 
     const Vec3d centre =
         (surface_.point(c.vertex[0]) + surface_.point(c.vertex[1]) + surface_.point(c.vertex[2])) / 3.0;
     FitPair pair;
-    nearest(centre, normals_[at(face.idx())], triangles, points, start, pair);
+    nearest(centre, input_.normal[at(face.idx())], triangles, points, start, pair);
     polygon[at(face.idx())] = start;
     queue.push_back(face.idx());
   };
@@ -184,6 +196,11 @@ void FitMatching::flood(const std::vector<OpenMesh::FaceHandle>& sources, const 
   for (Sample& sample : samples_) sample.polygon = polygon[at(sample.face)];
 }
 
+int FitMatching::polygon_of(int face) const {
+  const int first = first_sample_[at(face)];
+  return first < first_sample_[at(face) + 1] ? samples_[at(first)].polygon : -1;
+}
+
 const std::vector<FitPair>& FitMatching::match(const FitTriangles& triangles,
                                                const std::vector<Vec3d>& points) {
   const double least = tiny * surface_.diagonal();
@@ -193,8 +210,9 @@ const std::vector<FitPair>& FitMatching::match(const FitTriangles& triangles,
       Sample& sample = samples_[i];
       FitPair& pair = pairs_[i];
       if (sample.polygon < 0) continue;
-      pair.normal = normals_[at(sample.face)];
-      if (!nearest(sample.place, pair.normal, triangles, points, sample.polygon, pair)) continue;
+      pair.face = sample.face;
+      if (!nearest(sample.place, input_.normal[at(sample.face)], triangles, points, sample.polygon, pair))
+        continue;
       pair.weight = sample.weight;
       const Triangle& corner = triangles.corner[at(pair.triangle)];
       Vec3d away = sample.place;
@@ -248,9 +266,9 @@ void FitMatching::match_result(const FitTriangles& triangles, const std::vector<
       FitPair& pair = pairs_[index++];
       pair.triangle = static_cast<int>(t);
       pair.barycentric = w;
-      pair.normal = normals_[at(found.face.idx())];
+      pair.face = found.face.idx();
       pair.distance = away.norm();
-      pair.direction = pair.distance > least ? away / pair.distance : pair.normal;
+      pair.direction = pair.distance > least ? away / pair.distance : input_.normal[at(pair.face)];
       pair.weight = triangles.area[t] / (n * n * total);
     });
   });

@@ -6,8 +6,17 @@
 #include "anisomesh/surface.hh"
 #include "fit_mesh.hh"
 #include "near_locator.hh"
+#include "numerics/tensor3d.hh"
 
 namespace anisomesh::detail {
+
+/// What is known of each face of the input.
+struct FitInput {
+  explicit FitInput(const SurfaceRef& surface);
+  std::vector<Vec3d> normal;  ///< unit; zero without area
+  std::vector<double> area;
+  std::vector<Vec6d> tensor;  ///< of curvature, mean of the corners'; empty where none was estimated
+};
 
 /// Squared distance of one sample to the other mesh, as the fit sees it: it changes by
 /// weight * (direction | step of the place in the triangle).
@@ -15,7 +24,7 @@ struct FitPair {
   int triangle = -1;           ///< of the result
   Vec3d barycentric{0, 0, 0};  ///< in it
   Vec3d direction{0, 0, 0};    ///< unit, from the result to the input
-  Vec3d normal{0, 0, 0};       ///< of the input there
+  int face = -1;               ///< of the input
   double distance = 0;         ///< along `direction`, >= 0
   double weight = 0;           ///< share of the area of the mesh it was sampled on
 };
@@ -24,12 +33,15 @@ struct FitPair {
 /// on one side of a thin sheet never passes to the other, and features are not crossed.
 class FitMatching {
  public:
-  FitMatching(const SurfaceRef& surface, const FitMesh& mesh,
+  FitMatching(const SurfaceRef& surface, const FitInput& input, const FitMesh& mesh,
               const std::vector<OpenMesh::FaceHandle>& sources, const FitTriangles& triangles,
               const std::vector<Vec3d>& points);
 
   /// Pairs of both ways, those of the input first; each way's weights add up to 1.
   const std::vector<FitPair>& match(const FitTriangles& triangles, const std::vector<Vec3d>& points);
+
+  /// The polygon that the middle of a face of the input is matched with; -1: none.
+  int polygon_of(int face) const;
 
  private:
   struct Sample {
@@ -46,9 +58,9 @@ class FitMatching {
   void match_result(const FitTriangles& triangles, const std::vector<Vec3d>& points);
 
   const SurfaceRef& surface_;
+  const FitInput& input_;
   const FitMesh& mesh_;
   NearLocator locator_;
-  std::vector<Vec3d> normals_;  // of the input's faces
   std::vector<OpenMesh::FaceHandle> sources_;
   std::vector<Sample> samples_;
   std::vector<int> first_sample_;  // of each face

@@ -11,12 +11,13 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
+bool is_curve(const OpenMesh::PolyMesh& mesh, OpenMesh::EdgeHandle e) {
+  return mesh.is_boundary(e) || (mesh.has_edge_status() && mesh.status(e).feature());
+}
+
 // The polygons around a corner of a polygon, both ways as far as a feature or the border.
 void add_fan(const OpenMesh::PolyMesh& mesh, OpenMesh::HalfedgeHandle start, std::vector<int>& found) {
-  const auto wall = [&](OpenMesh::HalfedgeHandle h) {
-    const auto e = mesh.edge_handle(h);
-    return mesh.is_boundary(e) || (mesh.has_edge_status() && mesh.status(e).feature());
-  };
+  const auto wall = [&](OpenMesh::HalfedgeHandle h) { return is_curve(mesh, mesh.edge_handle(h)); };
   // around the to-vertex of `start`
   auto h = start;
   while (!wall(h)) {
@@ -36,10 +37,12 @@ FitMesh::FitMesh(const OpenMesh::PolyMesh& mesh) : n_vertices(static_cast<int>(m
   first_corner.push_back(0);
   first_around.push_back(0);
   first_polygon.assign(at(n_vertices) + 1, 0);
+  for (const auto e : mesh.edges()) sides.push_back({e.v0().idx(), e.v1().idx(), is_curve(mesh, e)});
   std::vector<int> found;
   for (const auto f : mesh.faces()) {
     found.clear();
     for (const auto h : mesh.fh_range(f)) {
+      corner_side.push_back(mesh.edge_handle(mesh.next_halfedge_handle(h)).idx());
       corners.push_back(mesh.to_vertex_handle(h).idx());
       ++first_polygon[at(corners.back()) + 1];
       add_fan(mesh, h, found);
@@ -56,6 +59,14 @@ FitMesh::FitMesh(const OpenMesh::PolyMesh& mesh) : n_vertices(static_cast<int>(m
   std::vector<int> next(first_polygon.begin(), first_polygon.end() - 1);
   for (int p = 0; p < n_polygons(); ++p)
     for (const int* v = begin(p); v != end(p); ++v) polygons[at(next[at(*v)]++)] = p;
+}
+
+int FitMesh::side(int polygon, int v, int w) const {
+  const int n = degree(polygon), first = first_corner[at(polygon)];
+  for (int i = 0; i < n; ++i)
+    if (corners[at(first + i)] == v && corners[at(first + (i + 1) % n)] == w)
+      return corner_side[at(first + i)];
+  return -1;
 }
 
 FitTriangles::FitTriangles(const FitMesh& mesh, const std::vector<Vec3d>& points) {

@@ -20,6 +20,15 @@ struct FitMesh {
   std::vector<int> first_polygon;  ///< of each vertex, into polygons
   std::vector<int> polygons;       ///< at each vertex, ascending
 
+  struct Side {
+    int from = -1, to = -1;
+    bool on_curve = false;  ///< a feature or the border
+  };
+  std::vector<Side> sides;       ///< of polygons, each once
+  std::vector<int> corner_side;  ///< for each of corners, the side to the next corner of its polygon
+  /// The side from v to w, if they follow each other on the polygon; -1 otherwise.
+  int side(int polygon, int v, int w) const;
+
   int n_polygons() const { return static_cast<int>(first_corner.size()) - 1; }
   int degree(int polygon) const { return first_corner[size_t(polygon) + 1] - first_corner[size_t(polygon)]; }
   const int* begin(int polygon) const { return corners.data() + first_corner[size_t(polygon)]; }

@@ -15,8 +15,10 @@ struct FitOptions {
   /// squared distance; >= 0
   double normal_weight = 0.01;
   double planarity_weight = 0.01;  ///< of the squared height of a quad's corners over their plane; >= 0
-  double damping = 0.02;           ///< of the squared step, which is what holds vertices of flat places; > 0
-  void validate() const;           ///< \throw InvalidOption
+  /// Of the squared part of a side that leads away from the nearer principal direction; >= 0
+  double alignment_weight = 5e-3;
+  double damping = 0.02;  ///< of the squared step, which is what holds vertices of flat places; > 0
+  void validate() const;  ///< \throw InvalidOption
 };
 
 struct FitReport {
