@@ -97,6 +97,26 @@ TEST_CASE("lines on a half torus are its circles", "[trace]") {
     CHECK(report.ends[static_cast<int>(LineEnd::border)] == 2 * (report.min_lines + report.max_lines));
 }
 
+TEST_CASE("no gap is left between the meridians of a dome, although some run into its spherical top", "[trace]") {
+  auto mesh = traced::shape("dome", 20000, false);
+  TraceOptions options = with_epsilon(0.000227);
+  options.seed_fraction = 0.8;
+  trace_lines(mesh, options);
+  const SurfaceRef surface = mesh;
+  std::vector<double> angles;
+  for (const Line& line : read_lines(mesh).lines)
+    for (const SurfacePoint& end : {line.points.front(), line.points.back()}) {
+      const Vec3d p = position(surface, end);
+      if (std::hypot(p[0], p[1]) > 0.999) angles.push_back(std::atan2(p[1], p[0]));
+    }
+  std::sort(angles.begin(), angles.end());
+  REQUIRE(angles.size() > 50);
+  angles.push_back(angles.front() + 2 * M_PI);
+  const double k_max = 2.4 / std::sqrt(1 + 2.4 * 2.4);  // at the rim of z = 1.2 (1 - r^2), around the axis
+  const double wanted = chord_spacing(k_max, 0.000227 * surface.diagonal());
+  for (size_t i = 1; i < angles.size(); ++i) CHECK(angles[i] - angles[i - 1] < 1.6 * wanted);
+}
+
 TEST_CASE("a cylinder gets as many lines around it as there are along it at any epsilon", "[trace]") {
   auto mesh = traced::shape("cylinder", 8000);
   const SurfaceRef surface = mesh;

@@ -120,7 +120,8 @@ void LineTracer::enter_lagging(Half& half, int id, bool all) {
 void LineTracer::run(Half& half, int id, int umbilic, double crossings_of_other_half) {
   double wanted = longest_step(half.points.back());
   double turned = 0, isotropic_since = 0;
-  size_t last_anisotropic = 0;
+  // A seed is never in an isotropic region; an umbilic is, and a line that stays there is of no use.
+  size_t last_anisotropic = umbilic < 0 ? 1 : 0;
   for (size_t n = 0; n < kStepLimit; ++n) {
     const TracePoint from = half.points.back();
     const Step made = step(from, wanted);
