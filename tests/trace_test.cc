@@ -97,7 +97,8 @@ TEST_CASE("lines on a half torus are its circles", "[trace]") {
     CHECK(report.ends[static_cast<int>(LineEnd::border)] == 2 * (report.min_lines + report.max_lines));
 }
 
-TEST_CASE("no gap is left between the meridians of a dome, although some run into its spherical top", "[trace]") {
+TEST_CASE("no gap is left between the meridians of a dome, although some run into its spherical top",
+          "[trace]") {
   auto mesh = traced::shape("dome", 20000, false);
   TraceOptions options = with_epsilon(0.000227);
   options.seed_fraction = 0.8;
@@ -169,6 +170,32 @@ TEST_CASE("lines end on a feature exactly, and none crosses it", "[trace]") {
     CHECK(position(surface, line.points.back())[0] == Approx(0).margin(1e-15));
     CHECK(line.points.back().barycentric.min() == 0);
   }
+}
+
+TEST_CASE("lines on both sides of a feature meet on it", "[trace]") {
+  auto mesh = traced::square(20, [](double x, double y) {
+    const double angle = x + 0.3 * y;  // min lines run across the feature, up to 60 degrees askew
+    return detail::tensor_from(0.5, 2, {-std::sin(angle), std::cos(angle)});
+  });
+  for (const auto edge : mesh.edges())
+    if (mesh.point(edge.v0())[0] == 0 && mesh.point(edge.v1())[0] == 0) mesh.status(edge).set_feature(true);
+  trace_lines(mesh, with_epsilon(0.001));
+  const SurfaceRef surface = mesh;
+  std::vector<double> left, right;  // heights at which min lines end on the feature
+  for (const Line& line : read_lines(mesh).lines) {
+    if (line.kind != LineKind::min) continue;
+    const auto points = positions(surface, line);
+    const bool is_left = points[points.size() / 2][0] < 0;
+    if (line.begin_reason == LineEnd::feature) (is_left ? left : right).push_back(points.front()[1]);
+    if (line.end_reason == LineEnd::feature) (is_left ? left : right).push_back(points.back()[1]);
+  }
+  size_t met = 0;
+  for (const double l : left)
+    met += static_cast<size_t>(
+        std::count_if(right.begin(), right.end(), [l](double r) { return std::abs(l - r) < 1e-12; }));
+  REQUIRE(left.size() >= 10);
+  // The few others start further in, and are too near to a line on the other side.
+  CHECK(static_cast<double>(met) >= 0.85 * static_cast<double>(std::max(left.size(), right.size())));
 }
 
 TEST_CASE("circles are closed", "[trace]") {

@@ -71,6 +71,9 @@ class Domain {
   /// The tensor at the end of a vector, carried back to the frame of its start.
   virtual Vec3d tensor_ahead(const SurfacePoint& from, const Vec2d& vector) const = 0;
   virtual Reach walk(const SurfacePoint& from, const Vec2d& vector) const = 0;
+  /// The same place on the other side of the feature edge that a point lies on exactly; no face if there is
+  /// none.
+  virtual SurfacePoint beyond_feature(const SurfacePoint& at) const = 0;
 
   /// Wanted distance between neighbouring lines of a kind here, graded: model units.
   virtual double spacing(LineKind kind, const SurfacePoint& at) const = 0;

@@ -78,13 +78,18 @@ void set_across(const SurfaceRef& surface, std::vector<DomainFace>& faces) {
   for (const auto f : mesh.all_faces())
     for (int i = 0; i < 3; ++i) {
       const auto h = opposite_halfedge(mesh, f, i);
-      int& across = faces[static_cast<size_t>(f.idx())].across[i];
-      if (mesh.is_boundary(mesh.edge_handle(h)))
-        across = kBorder;
-      else if (is_feature_or_border(mesh, mesh.edge_handle(h)))
-        across = kFeature;
-      else
-        across = mesh.opposite_face_handle(h).idx();
+      DomainFace& face = faces[static_cast<size_t>(f.idx())];
+      if (mesh.is_boundary(mesh.edge_handle(h))) {
+        face.across[i] = kBorder;
+        continue;
+      }
+      const auto other = mesh.opposite_face_handle(h);
+      face.across[i] = other.idx();
+      if (!is_feature_or_border(mesh, mesh.edge_handle(h))) continue;
+      face.across[i] = kFeature;
+      int corner = 0;
+      while (opposite_halfedge(mesh, other, corner) != mesh.opposite_halfedge_handle(h)) ++corner;
+      face.beyond[i] = 3 * other.idx() + corner;
     }
 }
 
@@ -174,6 +179,19 @@ void FaceDomain::register_umbilics(
     }
   }
   std::sort(near_umbilics_.begin(), near_umbilics_.end());
+}
+
+SurfacePoint FaceDomain::beyond_feature(const SurfacePoint& at) const {
+  const DomainFace& from = face(at.face);
+  for (int i = 0; i < 3; ++i) {
+    if (at.barycentric[i] != 0 || from.beyond[i] < 0) continue;
+    const int j = from.beyond[i] % 3;
+    SurfacePoint there{OpenMesh::FaceHandle(from.beyond[i] / 3), {0, 0, 0}};
+    there.barycentric[(j + 1) % 3] = at.barycentric[(i + 2) % 3];
+    there.barycentric[(j + 2) % 3] = at.barycentric[(i + 1) % 3];
+    return there;
+  }
+  return SurfacePoint();
 }
 
 NearUmbilic FaceDomain::umbilic_near(LineKind kind, const SurfacePoint& at) const {

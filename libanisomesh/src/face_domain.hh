@@ -15,9 +15,11 @@ constexpr int kFeature = -1, kBorder = -2;  ///< what lies across an edge, where
 struct DomainFace {
   int node[3] = {0, 0, 0};
   int across[3] = {0, 0, 0};  ///< a face, kFeature or kBorder
+  int beyond[3] = {-1, -1,
+                   -1};  ///< where across is kFeature: 3 times the face there plus its corner opposite
 };
 
-/// Fills in `across`. Reads: edge feature status.
+/// Fills in `across` and `beyond`. Reads: edge feature status.
 void set_across(const SurfaceRef& surface, std::vector<DomainFace>& faces);
 
 /// The larger |principal curvature|.
@@ -36,6 +38,7 @@ class FaceDomain : public Domain {
   double isotropic_spacing(const SurfacePoint& at) const final;
   bool isotropic(const SurfacePoint& at) const final;
   const std::vector<UmbilicPoint>& umbilics() const final { return umbilics_; }
+  SurfacePoint beyond_feature(const SurfacePoint& at) const final;
   NearUmbilic umbilic_near(LineKind kind, const SurfacePoint& at) const final;
   size_t n_faces() const final { return faces_.size(); }
   /// The epsilon of the density, model units.

@@ -22,7 +22,8 @@ struct Candidate {
   double misfit = 0;  // |actual - wanted distance| / wanted
   size_t order = 0;
   SurfacePoint origin;
-  Vec2d across{0, 0};                         // unit, away from the line
+  Vec2d across{0, 0};      // unit, away from the line
+  bool continues = false;  // the origin is on a feature, where a line ended on the other side
   bool operator<(const Candidate& o) const {  // worse ones sink in the queue
     return misfit != o.misfit ? misfit > o.misfit : order > o.order;
   }
@@ -32,6 +33,7 @@ struct Seed {
   SurfacePoint point;
   double misfit = 0;
   bool fits = false;
+  Vec2d direction{0, 0};  // of a line that continues another
 };
 
 class Placement {
@@ -57,6 +59,8 @@ class Placement {
   bool keep(TracedLine line);
   double clearance(const SurfacePoint& at, double bound) const;
   Seed seed_at(const Candidate& candidate) const;
+  Seed continued(const SurfacePoint& beyond) const;
+  void push(Candidate candidate);
   Vec2d line_direction(const SurfacePoint& at) const;
 
   const Domain& domain_;
@@ -89,6 +93,7 @@ double Placement::clearance(const SurfacePoint& at, double bound) const {
 // The seed at the wanted distance from a line, or in the middle of the gap beside it where the next line is
 // nearer than twice that.
 Seed Placement::seed_at(const Candidate& candidate) const {
+  if (candidate.continues) return continued(candidate.origin);
   Seed seed;
   const double wanted = domain_.spacing(kind_, candidate.origin);
   const Reach reach = domain_.walk(candidate.origin, wanted * candidate.across);
@@ -111,6 +116,33 @@ Seed Placement::seed_at(const Candidate& candidate) const {
   return seed;
 }
 
+// Where a line ended on a feature its neighbour on the other side starts, before any other line: two lines
+// that meet there make one vertex of the result, two that miss each other make two and triangles between
+// them.
+Seed Placement::continued(const SurfacePoint& beyond) const {
+  Seed seed;
+  const double spacing = domain_.spacing(kind_, beyond);
+  const Vec2d along = line_direction(beyond);
+  for (const Vec2d& direction : {along, -along}) {
+    const Reach reach = domain_.walk(beyond, kOffFeature * spacing * direction);
+    if (reach.blocked || domain_.isotropic(reach.point)) continue;
+    const double distance = std::min(clearance(reach.point, spacing), spacing);
+    seed.point = beyond;
+    seed.direction = direction;
+    seed.misfit = -distance / spacing;
+    seed.fits = distance >= 0.97 * options_.seed_fraction * spacing;
+  }
+  return seed;
+}
+
+void Placement::push(Candidate candidate) {
+  const Seed seed = seed_at(candidate);
+  if (!seed.fits) return;
+  candidate.misfit = seed.misfit;
+  candidate.order = candidates_++;
+  queue_.push(candidate);
+}
+
 bool Placement::keep(TracedLine line) {
   ++next_id_;
   if (line.points.empty()) return true;
@@ -120,13 +152,16 @@ bool Placement::keep(TracedLine line) {
     next_seed = p.arc + kSeedEvery;
     const Vec2d across(-p.direction[1], p.direction[0]);
     for (const Vec2d& side : {across, -across}) {
-      Candidate candidate{0, candidates_++, p.point, side};
-      const Seed seed = seed_at(candidate);
-      if (!seed.fits) continue;
-      candidate.misfit = seed.misfit;
-      queue_.push(candidate);
+      push({0, 0, p.point, side, false});
     }
   }
+  const auto continue_at = [this](LineEnd reason, const TracePoint& end) {
+    if (reason != LineEnd::feature) return;
+    const SurfacePoint beyond = domain_.beyond_feature(end.point);
+    if (beyond.face.is_valid()) push({0, 0, beyond, {0, 0}, true});
+  };
+  continue_at(line.begin_reason, line.points.front());
+  continue_at(line.end_reason, line.points.back());
   for (size_t i = 1; i < line.points.size(); ++i) {
     const double s = domain_.spacing(kind_, line.points[i].point);
     covered_ += std::abs(line.points[i].arc - line.points[i - 1].arc) * s * s;
@@ -180,7 +215,9 @@ bool Placement::trace_queue() {
       queue_.push(candidate);
       continue;
     }
-    if (!keep(tracer_.trace(seed.point, next_id_))) return false;
+    if (!keep(candidate.continues ? tracer_.trace_from_feature(seed.point, seed.direction, next_id_)
+                                  : tracer_.trace(seed.point, next_id_)))
+      return false;
   }
   return true;
 }

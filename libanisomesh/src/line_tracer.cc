@@ -111,6 +111,10 @@ void LineTracer::enter_lagging(Half& half, int id, bool all) {
   std::vector<ArcPoint> piece;
   for (size_t i = half.entered == 0 ? 0 : half.entered - 1; i < last; ++i)
     piece.push_back({half.points[i].point, half.points[i].arc});
+  if (half.entered == 0 && half.from_fence) {
+    const double length = kPullBack * kOffFeature * domain_.spacing(kind_, half.points[0].point);
+    piece.front().point = domain_.walk(half.points[0].point, length * half.points[0].direction).point;
+  }
   if (last == half.points.size() && at_fence(half.reason) && last >= 2)
     piece.back().point = pulled_back(domain_, kind_, half.points[last - 2], half.points[last - 1]);
   index_.enter(id, piece);
@@ -167,6 +171,18 @@ void LineTracer::run(Half& half, int id, int umbilic, double crossings_of_other_
   }
 }
 
+TracePoint LineTracer::after_straight_step(const TracePoint& start, double spacings, bool& blocked) const {
+  const double length = spacings * domain_.spacing(kind_, start.point);
+  const Reach reach = domain_.walk(start.point, length * start.direction);
+  blocked = reach.blocked;
+  TracePoint second;
+  second.point = reach.point;
+  second.direction = direction(domain_.tensor(second.point), rotated_by(start.direction, reach.rotation));
+  second.arc = spacings;
+  second.crossings = length / domain_.spacing(other(kind_), start.point);
+  return second;
+}
+
 TracedLine LineTracer::join(Half& forward, Half& backward, int id) {
   TracedLine line;
   if (forward.points.empty()) return line;
@@ -216,16 +232,25 @@ TracedLine LineTracer::trace_from_umbilic(int umbilic, const Vec2d& direction_th
   start.point = domain_.umbilics()[static_cast<size_t>(umbilic)].point;
   start.direction = direction_there;
   // The field has no direction at the umbilic itself: a first straight step leads off it.
-  TracePoint second = start;
-  const double length = 0.05 * domain_.spacing(kind_, start.point);
-  const Reach reach = domain_.walk(start.point, length * direction_there);
-  second.point = reach.point;
-  second.direction = direction(domain_.tensor(second.point), rotated_by(direction_there, reach.rotation));
-  second.arc = 0.05;
-  second.crossings = length / domain_.spacing(other(kind_), start.point);
-  forward.points = {start, second};
-  if (!reach.blocked) run(forward, id, umbilic, 0);
+  bool blocked = false;
+  forward.points = {start, after_straight_step(start, 0.05, blocked)};
+  if (!blocked) run(forward, id, umbilic, 0);
   backward.reason = LineEnd::umbilic;
+  return join(forward, backward, id);
+}
+
+TracedLine LineTracer::trace_from_feature(const SurfacePoint& start_point, const Vec2d& direction_there,
+                                          int id) {
+  Half forward, backward;
+  TracePoint start;
+  start.point = start_point;
+  start.direction = direction_there;
+  bool blocked = false;
+  forward.points = {start, after_straight_step(start, kOffFeature, blocked)};
+  if (blocked) return {};
+  forward.from_fence = true;
+  run(forward, id, -1, 0);
+  backward.reason = LineEnd::feature;
   return join(forward, backward, id);
 }
 

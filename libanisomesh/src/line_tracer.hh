@@ -15,6 +15,9 @@ struct TracePoint {
   double crossings = 0;   ///< length from the seed, in spacings between lines of the other kind
 };
 
+constexpr double kOffFeature =
+    0.05;  ///< spacings from a feature to the second point of a line that starts there
+
 struct TracedLine {
   std::vector<TracePoint> points;  ///< arc ascends
   bool closed = false;
@@ -33,6 +36,8 @@ class LineTracer {
   TracedLine trace(const SurfacePoint& seed, int id);
   /// The line that leaves an umbilic in a direction.
   TracedLine trace_from_umbilic(int umbilic, const Vec2d& direction, int id);
+  /// The line that leaves a point of a feature in a direction.
+  TracedLine trace_from_feature(const SurfacePoint& start, const Vec2d& direction, int id);
 
  private:
   struct Half {
@@ -40,6 +45,7 @@ class LineTracer {
     LineEnd reason = LineEnd::step_limit;
     size_t entered = 0;  // points already in the index
     double sign = 1;     // of the arc
+    bool from_fence = false;
   };
   struct Step {
     Reach reach;
@@ -54,6 +60,7 @@ class LineTracer {
   bool ends_here(Half& half, const TracePoint& head, int id, int umbilic);
   bool hits_umbilic(Half& half, const TracePoint& head, int umbilic);
   void enter_lagging(Half& half, int id, bool all);
+  TracePoint after_straight_step(const TracePoint& start, double spacings, bool& blocked) const;
   TracedLine join(Half& forward, Half& backward, int id);
 
   const Domain& domain_;

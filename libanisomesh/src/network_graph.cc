@@ -204,8 +204,15 @@ void Builder::insert_curve_edge(HalfedgeHandle h, EdgeKind kind) {
                                       [](const EdgePoint& a, const EdgePoint& b) { return a.edge < b.edge; });
   int node = insert_vertex(mesh_.from_vertex_handle(h), origin);
   const auto count = range.second - range.first;
+  double before = 0;
   for (auto i = decltype(count){0}; i < count; ++i) {
     const EdgePoint& p = forward ? range.first[i] : range.first[count - 1 - i];
+    // Two lines that end in the same place, one on each side, differ by rounding.
+    if (i > 0 && std::abs(p.t - before) < on_edge) {
+      node_of_sample_[at(p.sample)] = node;
+      continue;
+    }
+    before = p.t;
     const SurfacePoint point = on_mesh_edge(e, p.t);
     const int next = insert(point, locator_.uv(point), origin, false);
     node_of_sample_[at(p.sample)] = next;
