@@ -8,10 +8,10 @@
 #include "support/reports.hh"
 
 int main(int argc, char* argv[]) {
-  apps::Command command(
-      "anisomesh-flatten",
-      "Second stage: maps the surface to the plane, or leaves it as it is; smooths the tensors there, finds "
-      "umbilics.");
+  apps::Command command("anisomesh-flatten",
+                        "Second stage: maps the surface to the plane or to charts, or leaves it as it is; "
+                        "smooths the tensors, finds "
+                        "umbilics.");
   std::string input, output;
   anisomesh::Domain domain = anisomesh::Domain::automatic;
   anisomesh::SmoothingOptions smoothing;
@@ -34,7 +34,10 @@ int main(int argc, char* argv[]) {
     command.report()["umbilics"] = apps::to_json(umbilics);
     command.report()["output"] = output;
     command.say(output +
-                (chosen.used == anisomesh::Domain::plane ? ": in the plane, " : ": on the surface, ") +
+                (chosen.used == anisomesh::Domain::plane ? ": in the plane, "
+                 : chosen.used == anisomesh::Domain::charts
+                     ? ": in " + std::to_string(chosen.charts.charts) + " charts, "
+                     : ": on the surface, ") +
                 std::to_string(umbilics.wedges) + " wedges, " + std::to_string(umbilics.trisectors) +
                 " trisectors, " + apps::seconds(chosen.seconds + smooth.seconds + umbilics.seconds));
   });

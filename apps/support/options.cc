@@ -67,7 +67,10 @@ void add_curvature_options(Command& command, CurvatureOptions& options) {
 
 void add_domain_option(Command& command, Domain& domain) {
   add_choice<Domain>(command.arguments(), "--domain", domain,
-                     {{"auto", Domain::automatic}, {"plane", Domain::plane}, {"surface", Domain::surface}},
+                     {{"auto", Domain::automatic},
+                      {"plane", Domain::plane},
+                      {"charts", Domain::charts},
+                      {"surface", Domain::surface}},
                      "Where lines are traced; auto takes the plane for a disc that flattens well", "Domain");
 }
 

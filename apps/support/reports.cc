@@ -50,10 +50,25 @@ Json to_json(const FlattenReport& r) {
           {"seconds", r.seconds}};
 }
 
+Json to_json(const ChartReport& r) {
+  return {{"charts", r.charts},
+          {"seam_edges", r.seam_edges},
+          {"seam_length", r.seam_length},
+          {"max_area_stretch", r.max_area_stretch},
+          {"mean_conformal_distortion", r.mean_conformal_distortion},
+          {"repaired_triangles", r.repaired_triangles},
+          {"single_triangles", r.single_triangles},
+          {"seconds", r.seconds}};
+}
+
+std::string name_of(Domain domain) {
+  return domain == Domain::plane ? "plane" : domain == Domain::charts ? "charts" : "surface";
+}
+
 void add_json(Json& json, const DomainReport& r) {
-  const bool plane = r.used == Domain::plane;
-  json["domain"] = {{"used", plane ? "plane" : "surface"}, {"reason", r.reason}, {"seconds", r.seconds}};
-  if (plane) json["flatten"] = to_json(r.flatten);
+  json["domain"] = {{"used", name_of(r.used)}, {"reason", r.reason}, {"seconds", r.seconds}};
+  if (r.used == Domain::plane) json["flatten"] = to_json(r.flatten);
+  if (r.used == Domain::charts) json["charts"] = to_json(r.charts);
 }
 
 Json to_json(const SmoothingReport& r) { return {{"mean_change", r.mean_change}, {"seconds", r.seconds}}; }

@@ -18,6 +18,7 @@ Json to_json(const anisomesh::FillReport& report);
 Json to_json(const anisomesh::FeatureReport& report);
 Json to_json(const anisomesh::CurvatureReport& report);
 Json to_json(const anisomesh::FlattenReport& report);
+Json to_json(const anisomesh::ChartReport& report);
 Json to_json(const anisomesh::SmoothingReport& report);
 Json to_json(const anisomesh::UmbilicReport& report);
 Json to_json(const anisomesh::TraceReport& report);
@@ -25,7 +26,9 @@ Json to_json(const anisomesh::IsotropicReport& report);
 Json to_json(const anisomesh::MeshReport& report);
 Json to_json(const anisomesh::FitReport& report);
 Json to_json(const anisomesh::Comparison& comparison);
-/// The domain and, in the plane, the flattening, into `json`.
+/// "plane", "charts" or "surface".
+std::string name_of(anisomesh::Domain domain);
+/// The domain and, in the plane or in charts, the flattening, into `json`.
 void add_json(Json& json, const anisomesh::DomainReport& report);
 /// epsilon, attempts, and the reports of the last three stages, into `json`.
 void add_json(Json& json, const anisomesh::TraceAndMeshReport& report);

@@ -35,11 +35,17 @@ DomainReport choose_domain(const SurfaceRef& surface, Domain wanted, const Progr
   DomainReport report;
   if (wanted == Domain::plane) {
     report.flatten = flatten(surface, progress);
+  } else if (wanted == Domain::charts) {
+    require_property(surface.connectivity(), property::tensor);
+    report.charts = cut_into_charts(surface, {}, progress);
+    unflatten(surface);
+    report.used = Domain::charts;
   } else {
     require_property(surface.connectivity(), property::tensor);
     if (wanted == Domain::automatic) report.reason = try_plane(surface, report.flatten, progress);
     if (wanted == Domain::surface || !report.reason.empty()) {
       unflatten(surface);
+      discard_charts(surface);
       report.flatten = {};
       report.used = Domain::surface;
     }

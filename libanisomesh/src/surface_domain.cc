@@ -1,7 +1,10 @@
 #include "surface_domain.hh"
 
 #include <algorithm>
+#include <cmath>
 
+#include "anisomesh/charts.hh"
+#include "chart_field.hh"
 #include "numerics/tensor2d.hh"
 #include "surface_field.hh"
 #include "surface_index.hh"
@@ -10,6 +13,19 @@
 namespace anisomesh::detail {
 
 namespace {
+
+// The triangles of the charts, each scaled to its area: lengths of the edges opposite each corner.
+std::vector<std::array<double, 3>> chart_lengths(const std::vector<std::array<Vec2d, 3>>& corners,
+                                                 const UnfoldedFaces& unfolded) {
+  std::vector<std::array<double, 3>> lengths(corners.size());
+  for (size_t f = 0; f < lengths.size(); ++f) {
+    const auto& c = corners[f];
+    const double area = unfolded.area(static_cast<int>(f));
+    const double scale = std::sqrt(area / (0.5 * cross2(c[1] - c[0], c[2] - c[0])));
+    for (size_t i = 0; i < 3; ++i) lengths[f][i] = scale * (c[(i + 1) % 3] - c[(i + 2) % 3]).norm();
+  }
+  return lengths;
+}
 
 // `across` is set by the time UnfoldedFaces looks at it.
 const std::vector<DomainFace>& with_across(const SurfaceRef& surface, std::vector<DomainFace>& faces) {
@@ -22,7 +38,19 @@ const std::vector<DomainFace>& with_across(const SurfaceRef& surface, std::vecto
 SurfaceInput read_surface_input(const SurfaceRef& surface) {
   SurfaceInput input;
   SurfaceField field = surface_field(surface, read_surface_tensors(surface));
-  input.corner_tensors = corner_tensors_in_faces(surface, field);
+  if (has_charts(surface)) {
+    ChartField charts = chart_field(surface, field);
+    input.corner_tensors = std::move(charts.tensor);
+    for (size_t f = 0; f < charts.corner.size(); ++f) {
+      const Vec2d axis = charts.axis(f);
+      for (Vec3d& tensor : input.corner_tensors[f]) tensor = rotated(tensor, {axis[0], -axis[1]});
+      for (Vec2d& turn : charts.turn[f]) turn = turned_back(turn, axis);
+    }
+    input.chart_corners = std::move(charts.corner);
+    input.chart_turns = std::move(charts.turn);
+  } else {
+    input.corner_tensors = corner_tensors_in_faces(surface, field);
+  }
   input.umbilics = read_umbilics(surface, input.corner_tensors);
   input.corner_node = std::move(field.cut.corner_node);
   input.node_tensors = std::move(field.tensor);
@@ -35,6 +63,9 @@ SurfaceDomain::SurfaceDomain(const SurfaceRef& surface, SurfaceInput input, cons
       surface_(surface),
       unfolded_(surface, with_across(surface, faces_)),
       corner_tensors_(std::move(input.corner_tensors)) {
+  if (!input.chart_corners.empty())
+    charts_.emplace(surface, faces_, chart_lengths(input.chart_corners, unfolded_),
+                    std::move(input.chart_turns));
   for (size_t f = 0; f < faces_.size(); ++f)
     for (size_t i = 0; i < 3; ++i) faces_[f].node[i] = input.corner_node[f][i];
   make_spacing(input.node_tensors, [this](size_t f, int i) {
@@ -82,12 +113,12 @@ Vec3d SurfaceDomain::tensor_ahead(const SurfacePoint& from, const Vec2d& vector)
 }
 
 Reach SurfaceDomain::walk(const SurfacePoint& from, const Vec2d& vector) const {
-  return walk_straight(unfolded_, from, vector, [](const PathPiece&) {});
+  return walk_straight(ground(), from, vector, [](const PathPiece&) {});
 }
 
 LinearField SurfaceDomain::field(OpenMesh::FaceHandle face) const {
   const int f = face.idx();
-  return {{unfolded_.corner(f, 0), unfolded_.corner(f, 1), unfolded_.corner(f, 2)},
+  return {{ground().corner(f, 0), ground().corner(f, 1), ground().corner(f, 2)},
           corner_tensors_[static_cast<size_t>(f)]};
 }
 

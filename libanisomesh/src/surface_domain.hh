@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "face_domain.hh"
 #include "linear_field.hh"
@@ -16,13 +17,19 @@ struct SurfaceInput {
   std::vector<Vec3d> node_tensors;                   ///< of each node, in any frame of its tangent plane
   std::vector<std::array<Vec3d, 3>> corner_tensors;  ///< of each face, in its frame (UnfoldedFaces)
   std::vector<UmbilicPoint> umbilics;
+  /// Without charts empty: the corners of each face in its chart, and the turns of UnfoldedFaces.
+  std::vector<std::array<Vec2d, 3>> chart_corners, chart_turns;
 };
 
-/// Reads the properties that smooth_tensors() and find_umbilics() have written.
+/// Reads the properties that cut_into_charts(), smooth_tensors() and find_umbilics() have written.
 SurfaceInput read_surface_input(const SurfaceRef& surface);
 
 /// Walks from triangle to triangle, unfolding at each edge. The local frame is that of the face
 /// (UnfoldedFaces); in it the tensors of the corners are joined linearly. [Marinov and Kobbelt 2004]
+///
+/// Where the surface has charts it walks in these: the triangles are those of the charts, each scaled to its
+/// area on the surface, so that a way is straight in a chart, its length that on the surface, and a seam an
+/// edge as any other. What is near is measured on the surface.
 class SurfaceDomain final : public FaceDomain {
  public:
   SurfaceDomain(const SurfaceRef& surface, SurfaceInput input, const DensityOptions& density);
@@ -42,8 +49,11 @@ class SurfaceDomain final : public FaceDomain {
   LinearField field(OpenMesh::FaceHandle face) const;
   double distance(const SurfacePoint& at, const Vec2d& place) const override;
 
+  const UnfoldedFaces& ground() const { return charts_ ? *charts_ : unfolded_; }
+
   const SurfaceRef& surface_;
   UnfoldedFaces unfolded_;
+  std::optional<UnfoldedFaces> charts_;
   std::vector<std::array<Vec3d, 3>> corner_tensors_;
   std::unique_ptr<SurfaceDistance> fences_;  // none where there are no fences
 };

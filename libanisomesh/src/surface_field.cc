@@ -91,21 +91,29 @@ std::vector<Vec6d> read_surface_tensors(const SurfaceRef& surface) {
   return tensors;
 }
 
-std::vector<std::array<Vec3d, 3>> corner_tensors_in_faces(const SurfaceRef& surface,
-                                                          const SurfaceField& field) {
-  std::vector<std::array<Vec3d, 3>> corners(field.cut.corner_node.size());
+std::vector<std::array<Vec2d, 3>> turns_into_faces(const SurfaceRef& surface, const SurfaceField& field) {
+  std::vector<std::array<Vec2d, 3>> turns(field.cut.corner_node.size());
   for (const auto f : surface.connectivity().all_faces()) {
     const auto& nodes = field.cut.corner_node[static_cast<size_t>(f.idx())];
     Vec3d hint(0, 0, 0);
     for (const int n : nodes) hint += field.normal[static_cast<size_t>(n)];
     const FaceFrame frame = face_frame(surface, f, hint);
     for (size_t i = 0; i < 3; ++i) {
-      const auto n = static_cast<size_t>(nodes[i]);
-      const Vec3d& normal = field.normal[n];
+      const Vec3d& normal = field.normal[static_cast<size_t>(nodes[i])];
       const TangentFrame laid = turned(TangentFrame(normal), normal, frame.normal);
-      corners[static_cast<size_t>(f.idx())][i] = rotated(field.tensor[n], between(laid, frame.x, frame.y));
+      turns[static_cast<size_t>(f.idx())][i] = between(laid, frame.x, frame.y);
     }
   }
+  return turns;
+}
+
+std::vector<std::array<Vec3d, 3>> corner_tensors_in_faces(const SurfaceRef& surface,
+                                                          const SurfaceField& field) {
+  const auto turns = turns_into_faces(surface, field);
+  std::vector<std::array<Vec3d, 3>> corners(turns.size());
+  for (size_t f = 0; f < corners.size(); ++f)
+    for (size_t i = 0; i < 3; ++i)
+      corners[f][i] = rotated(field.tensor[static_cast<size_t>(field.cut.corner_node[f][i])], turns[f][i]);
   return corners;
 }
 

@@ -32,6 +32,10 @@ SurfaceField surface_field(const SurfaceRef& surface, const std::vector<Vec6d>& 
 /// The tensors the stages after smoothing work with: surface_tensor. \throw InvalidInput if it is missing
 std::vector<Vec6d> read_surface_tensors(const SurfaceRef& surface);
 
+/// (cos, sin) that takes coordinates in the TangentFrame of each corner's normal to those in its face's
+/// frame.
+std::vector<std::array<Vec2d, 3>> turns_into_faces(const SurfaceRef& surface, const SurfaceField& field);
+
 /// The tensors at the corners of each face, in its own frame.
 std::vector<std::array<Vec3d, 3>> corner_tensors_in_faces(const SurfaceRef& surface,
                                                           const SurfaceField& field);

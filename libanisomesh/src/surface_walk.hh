@@ -61,7 +61,7 @@ Reach walk_straight(const UnfoldedFaces& faces, const SurfacePoint& from, const 
       reach.border = next == kBorder;
       break;
     }
-    const Vec2d& turn = faces.turn(face, exit);
+    const Vec2d turn = faces.turn_at(face, exit, at);
     rest = turned_by((1 - t) * rest, turn);
     reach.rotation = turned_by(reach.rotation, turn);
     at = faces.carried_on_edge(face, exit, at);

@@ -4,10 +4,11 @@
 #include <chrono>
 #include <cmath>
 
+#include "anisomesh/charts.hh"
 #include "anisomesh/flatten.hh"
 #include "anisomesh/properties.hh"
 #include "anisomesh/smoothing.hh"
-#include "cut_surface.hh"
+#include "chart_field.hh"
 #include "numerics/tensor2d.hh"
 #include "surface_umbilics.hh"
 #include "umbilic_analysis.hh"
@@ -22,8 +23,8 @@ using CornerDeviators = std::vector<std::array<Vec2d, 3>>;
 
 /// Deviators at the corners of every face; those far below anything a surface of this size shows are rounding
 /// and become 0, so that a plane has no umbilics at all.
-CornerDeviators corner_deviators(const SurfaceRef& surface) {
-  const auto tensors = corner_tensors(surface);
+CornerDeviators corner_deviators(const SurfaceRef& surface,
+                                 const std::vector<std::array<Vec3d, 3>>& tensors) {
   double largest = 0;
   for (const auto& face : tensors)
     for (const auto& tensor : face) largest = std::max(largest, frobenius_norm(tensor));
@@ -48,34 +49,79 @@ double turn(const Vec2d& a, const Vec2d& b) {
 }
 
 /// Turns of the principal directions along the border and both sides of the features, the surface on the
-/// left, by adding up angles: not the way the indices are found, so that the two can be compared.
-double turning_of_border(const SurfaceRef& surface, const CornerDeviators& deviators) {
-  const auto& mesh = surface.connectivity();
+/// left, by adding up angles: not the way the indices are found, so that the two can be compared. In charts
+/// seams count as features.
+double turning_of_border(const FaceSides& sides, const std::vector<char>& seam,
+                         const CornerDeviators& deviators) {
   double radians = 0;
-  for (const auto f : mesh.all_faces()) {
-    auto h = mesh.halfedge_handle(f);  // from corner 2 to corner 0
-    for (size_t i = 0; i < 3; ++i, h = mesh.next_halfedge_handle(h)) {
-      if (!mesh.is_boundary(mesh.opposite_halfedge_handle(h)) && !is_feature(mesh, mesh.edge_handle(h)))
-        continue;
-      const auto& corner = deviators[static_cast<size_t>(f.idx())];
-      const Vec2d &a = corner[(i + 2) % 3], &b = corner[i];
-      radians += turn(a, b);
-    }
+  for (size_t side = 0; side < sides.twin.size(); ++side) {
+    if (sides.twin[side] >= 0 && !sides.feature[side] && (seam.empty() || !seam[side])) continue;
+    const auto& corner = deviators[side / 3];
+    radians += turn(corner[side % 3], corner[(side % 3 + 1) % 3]);
   }
   return radians / (4 * pi);  // the deviator turns twice as fast as the directions
 }
 
-/// In the plane, where one frame does for all.
-SurfaceUmbilics umbilics_in_plane(const SurfaceRef& surface) {
-  const auto deviators = corner_deviators(surface);
+/// In a plane, where one frame does for all faces, or in the planes of charts.
+SurfaceUmbilics umbilics_in_planes(const CornerDeviators& deviators) {
   SurfaceUmbilics result;
-  result.doubled_index.assign(deviators.size(), 0);
+  result.doubled_index.reserve(deviators.size());
   result.position.assign(deviators.size(), Vec3d(0, 0, 0));
-  for (size_t f = 0; f < deviators.size(); ++f) {
-    result.doubled_index[f] = doubled_index(deviators[f]);
+  for (const auto& face : deviators) result.doubled_index.push_back(doubled_index(face));
+  return result;
+}
+
+void place_umbilics(const CornerDeviators& deviators, SurfaceUmbilics& result) {
+  for (size_t f = 0; f < deviators.size(); ++f)
     if (result.doubled_index[f] != 0) result.position[f] = degenerate_point(deviators[f]);
+}
+
+SurfaceUmbilics umbilics_in_plane(const SurfaceRef& surface) {
+  const auto deviators = corner_deviators(surface, corner_tensors(surface));
+  auto result = umbilics_in_planes(deviators);
+  place_umbilics(deviators, result);
+  result.turning = turning_of_border(FaceSides(surface), {}, deviators);
+  return result;
+}
+
+/// The two sides of a seam see the field in frames that differ by a turn, which goes over from that at one
+/// end to that at the other. The second side takes the field to go round as the first does, so that each
+/// umbilic is counted once and the indices of a closed surface add up to its Euler characteristic.
+SurfaceUmbilics umbilics_in_charts(const SurfaceRef& surface) {
+  const auto charts = chart_field(surface, surface_field(surface, read_surface_tensors(surface)));
+  const auto deviators = corner_deviators(surface, charts.tensor);
+  auto result = umbilics_in_planes(deviators);
+  int corrections = 0;
+  const auto frame = [&](int c) {
+    return charts.turn[static_cast<size_t>(c / 3)][static_cast<size_t>(c % 3)];
+  };
+  const auto along = [&](int side) {
+    const auto& corner = charts.corner[static_cast<size_t>(side / 3)];
+    return Vec2d(corner[static_cast<size_t>((side + 1) % 3)] - corner[static_cast<size_t>(side % 3)]);
+  };
+  const auto bend = [&](int corner, int beyond, int side, int twin) {
+    const Vec2d turn_there = turned_back(frame(beyond), frame(corner));
+    const Vec2d b = turned_back(turn_there, turned_back(-along(twin), along(side)));
+    return std::atan2(b[1], b[0]);
+  };
+  const auto turn_along = [&](int side) {
+    const auto at = [&](int c) { return deviators[static_cast<size_t>(c / 3)][static_cast<size_t>(c % 3)]; };
+    return turn(at(side), at(next_side(side)));
+  };
+  for (int side = 0; side < static_cast<int>(charts.seam.size()); ++side) {
+    const int twin = charts.sides.twin[static_cast<size_t>(side)];
+    if (!charts.seam[static_cast<size_t>(side)] || charts.sides.feature[static_cast<size_t>(side)] ||
+        twin < side)
+      continue;
+    // By how much more than the edge a frame is turned at its two ends; twice that for deviators.
+    const double change = bend(side, next_side(twin), side, twin) - bend(next_side(side), twin, side, twin);
+    const double seen = 2 * change - turn_along(side) - turn_along(twin);
+    const auto turns = static_cast<int>(std::lround(seen / (2 * pi)));
+    result.doubled_index[static_cast<size_t>(twin / 3)] += turns;
+    corrections += turns;
   }
-  result.turning = turning_of_border(surface, deviators);
+  place_umbilics(deviators, result);
+  result.turning = turning_of_border(charts.sides, charts.seam, deviators) + 0.5 * corrections;
   return result;
 }
 
@@ -85,8 +131,9 @@ UmbilicReport find_umbilics(const SurfaceRef& surface) {
   const auto start = std::chrono::steady_clock::now();
   auto& mesh = surface.connectivity();
   const auto found =
-      is_flattened(surface)
-          ? umbilics_in_plane(surface)
+      is_flattened(surface) ? umbilics_in_plane(surface)
+      : has_charts(surface)
+          ? umbilics_in_charts(surface)
           : umbilics_on_surface(surface, surface_field(surface, read_surface_tensors(surface)));
   UmbilicReport report;
   for (const int halves : found.doubled_index)

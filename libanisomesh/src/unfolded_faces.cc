@@ -23,7 +23,7 @@ std::vector<std::array<double, 3>> edge_lengths(const SurfaceRef& surface) {
   return lengths;
 }
 
-void mollify(std::vector<std::array<double, 3>>& lengths) {
+std::vector<std::array<double, 3>> mollified(std::vector<std::array<double, 3>> lengths) {
   double sum = 0;
   for (const auto& l : lengths) sum += l[0] + l[1] + l[2];
   const double slack = kSlack * sum / static_cast<double>(3 * lengths.size());
@@ -31,17 +31,21 @@ void mollify(std::vector<std::array<double, 3>>& lengths) {
   for (const auto& l : lengths)
     for (size_t i = 0; i < 3; ++i)
       missing = std::max(missing, slack + l[i] - l[(i + 1) % 3] - l[(i + 2) % 3]);
-  if (missing == 0) return;
+  if (missing == 0) return lengths;
   for (auto& l : lengths)
     for (double& length : l) length += missing;
+  return lengths;
 }
 
 }  // namespace
 
 UnfoldedFaces::UnfoldedFaces(const SurfaceRef& surface, const std::vector<DomainFace>& faces)
-    : layouts_(faces.size()), faces_(&faces) {
-  auto lengths = edge_lengths(surface);
-  mollify(lengths);
+    : UnfoldedFaces(surface, faces, mollified(edge_lengths(surface)), {}) {}
+
+UnfoldedFaces::UnfoldedFaces(const SurfaceRef& surface, const std::vector<DomainFace>& faces,
+                             const std::vector<std::array<double, 3>>& lengths,
+                             std::vector<std::array<Vec2d, 3>> corner_turns)
+    : layouts_(faces.size()), corner_turns_(std::move(corner_turns)), faces_(&faces) {
   for (size_t f = 0; f < faces.size(); ++f) {
     const double a = lengths[f][0], b = lengths[f][1], c = lengths[f][2];
     // Twice the area by Heron's formula in the order that loses no digits. [Kahan 2014]
@@ -71,6 +75,21 @@ UnfoldedFaces::UnfoldedFaces(const SurfaceRef& surface, const std::vector<Domain
       const Vec2d there = (corner(g, (j + 1) % 3) - corner(g, (j + 2) % 3)).normalized();
       layouts_[f].turn[static_cast<size_t>(i)] = {here | there, cross2(here, there)};
     }
+}
+
+Vec2d UnfoldedFaces::turn_at(int face, int i, const Vec3d& barycentric) const {
+  if (corner_turns_.empty()) return turn(face, i);
+  const auto& here = corner_turns_[static_cast<size_t>(face)];
+  const auto& there = corner_turns_[static_cast<size_t>(across(face, i))];
+  const auto a = static_cast<size_t>((i + 1) % 3), b = static_cast<size_t>((i + 2) % 3);
+  const auto j = static_cast<size_t>(twin(face, i));
+  const Vec2d mean = barycentric[a] * turned_back(there[(j + 2) % 3], here[a]) +
+                     barycentric[b] * turned_back(there[(j + 1) % 3], here[b]);
+  // A way that is bent more might come back over the edge at once.
+  constexpr double kMostBend = 0.5;  // radians
+  const Vec2d bend = turned_back(mean, turn(face, i));
+  const double angle = std::clamp(std::atan2(bend[1], bend[0]), -kMostBend, kMostBend);
+  return turned_by(turn(face, i), {std::cos(angle), std::sin(angle)});
 }
 
 double UnfoldedFaces::edge_distance2(int face, int i, const Vec2d& place, double& parameter) const {

@@ -28,6 +28,14 @@ class UnfoldedFaces {
  public:
   /// \param faces whose `across` are set; kept, and read later
   UnfoldedFaces(const SurfaceRef& surface, const std::vector<DomainFace>& faces);
+  /// Other triangles instead of those of the surface, which need not fit together.
+  /// \param lengths of the edges opposite each corner, of triangles with an inside
+  /// \param corner_turns (cos, sin) of what takes a frame at each corner's vertex to that of the face: where
+  /// the two ends of an edge differ in what they make of the turn across it, it goes over from one to the
+  /// other
+  UnfoldedFaces(const SurfaceRef& surface, const std::vector<DomainFace>& faces,
+                const std::vector<std::array<double, 3>>& lengths,
+                std::vector<std::array<Vec2d, 3>> corner_turns);
 
   size_t size() const { return layouts_.size(); }
   Vec2d corner(int face, int i) const {
@@ -56,6 +64,8 @@ class UnfoldedFaces {
   const Vec2d& turn(int face, int i) const {
     return layouts_[static_cast<size_t>(face)].turn[static_cast<size_t>(i)];
   }
+  /// The same at a point of that edge.
+  Vec2d turn_at(int face, int i, const Vec3d& barycentric) const;
   /// A place in the frame of a face as the face across the edge opposite corner i sees it.
   Vec2d carried(int face, int i, const Vec2d& place) const {
     return corner(across(face, i), (twin(face, i) + 1) % 3) +
@@ -80,6 +90,7 @@ class UnfoldedFaces {
     std::array<signed char, 3> twin{-1, -1, -1};
   };
   std::vector<Layout> layouts_;
+  std::vector<std::array<Vec2d, 3>> corner_turns_;  // may be empty
   const std::vector<DomainFace>* faces_;
 };
 

@@ -113,6 +113,17 @@ any_surface)
     cmp row.obj $name.obj
     anisomesh-remesh -q $name.off -o threads.obj --epsilon 0.002 --threads 3
     cmp threads.obj $name.obj
+    # the same in charts
+    anisomesh-remesh -q $name.off -o charts.obj --domain charts --epsilon 0.002 --json charts.json
+    grep -q '"charts"' charts.json || fail "no charts in the report"
+    anisomesh-compare $name.off charts.obj --json $name.json >/dev/null
+    grep -q '"same_topology": *true' $name.json || fail "$name has another topology in charts"
+    grep -q '"folded_faces": *0' $name.json || fail "$name is folded in charts"
+    FLATTEN="--domain charts" TRACE="--epsilon 0.002"
+    in_a_row $name.off row.obj
+    cmp row.obj charts.obj
+    anisomesh-remesh -q $name.off -o threads.obj --domain charts --epsilon 0.002 --threads 3
+    cmp threads.obj charts.obj
   done
   ;;
 

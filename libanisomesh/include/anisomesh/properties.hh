@@ -27,6 +27,8 @@ using OnVertices = PropertyDeclaration<OpenMesh::VPropHandleT<T>>;
 template <class T>
 using OnFaces = PropertyDeclaration<OpenMesh::FPropHandleT<T>>;
 template <class T>
+using OnHalfedges = PropertyDeclaration<OpenMesh::HPropHandleT<T>>;
+template <class T>
 using OnEdges = PropertyDeclaration<OpenMesh::EPropHandleT<T>>;
 template <class T>
 using OnMesh = PropertyDeclaration<OpenMesh::MPropHandleT<T>>;
@@ -56,6 +58,15 @@ inline constexpr OnVertices<double> area_stretch{"anisomesh:area_stretch", "flat
 /// Curvature tensor in the (u, v) frame, as (uu, uv, vv), 1/length on the surface; its eigenvalues are k_min
 /// and k_max and the eigenvector of k_min is the image of gamma_min. Smoothed in place by smooth_tensors().
 inline constexpr OnVertices<Vec3d> tensor2d{"anisomesh:tensor2d", "flatten"};
+
+// --- written by cut_into_charts()
+// ----------------------------------------------------------------------------------------
+/// The chart that the face belongs to, from 0.
+inline constexpr OnFaces<int> chart{"anisomesh:chart", "cut_into_charts"};
+/// Where the corner that the halfedge points to lies in the plane of its face's chart: on a seam a vertex has
+/// several places. Every face counter-clockwise; the area of a chart is that of its faces. (0, 0) on the
+/// border.
+inline constexpr OnHalfedges<Vec2d> chart_uv{"anisomesh:chart_uv", "cut_into_charts"};
 
 // --- written by smooth_tensors() where the surface is not flattened
 // -----------------------------------------------------
@@ -145,6 +156,14 @@ template <class T>
 OpenMesh::FPropHandleT<T> provide_property(
     OpenMesh::BaseKernel& mesh, const PropertyDeclaration<OpenMesh::FPropHandleT<T>>& declaration) {
   OpenMesh::FPropHandleT<T> handle;
+  if (!mesh.get_property_handle(handle, declaration.name)) mesh.add_property(handle, declaration.name);
+  mesh.property(handle).set_persistent(true);
+  return handle;
+}
+template <class T>
+OpenMesh::HPropHandleT<T> provide_property(
+    OpenMesh::BaseKernel& mesh, const PropertyDeclaration<OpenMesh::HPropHandleT<T>>& declaration) {
+  OpenMesh::HPropHandleT<T> handle;
   if (!mesh.get_property_handle(handle, declaration.name)) mesh.add_property(handle, declaration.name);
   mesh.property(handle).set_persistent(true);
   return handle;
