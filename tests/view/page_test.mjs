@@ -226,6 +226,14 @@ test('a click says what is there', async () => {
   assert.match((await picked(page))['result-edge'].text, /kind\s+max/);
   await page.mouse.click(...(await place(page, box, -0.02, 1.02)));
   assert.deepEqual(await picked(page), {});
+  // Laid over each other both are there, the result first.
+  await only(page, 'overlay', 'border', 'polygons');
+  const over = boxOf(await screenshot(page));
+  await page.mouse.click(...(await place(page, over, 0.47, 0.73)));
+  const both = await picked(page);
+  assert.equal(both.face.number, 2 * (10 * 7 + 4));
+  assert.equal(both.polygon.number, 0);
+  assert.deepEqual(Object.keys(both).sort(), ['face', 'polygon']);
   await page.close();
 });
 

@@ -39,6 +39,7 @@ export class Stage {
       this.scenes.result.background =
         new Color(colours.background);
     this.made = new Map();
+    this.marked = [];
     this.ranges = {};
     if (surface) {
       this.inSpace = facesOf(surface.corners.space, surface.cornerNormals(), true);
@@ -172,12 +173,15 @@ export class Stage {
     return objects;
   }
 
-  /** Marks what was picked: segments in a scene, replacing the last mark. */
-  mark(scene, segments) {
-    this.marked?.removeFromParent();
-    this.marked = null;
-    if (!segments?.length) return;
-    this.marked = segmentsOf(Float32Array.from(segments), { colour: rgb(colours.selected), width: 3.5, bias: 0.02 });
-    this.scenes[scene].add(this.marked);
+  /** Marks what was picked: pairs of a scene and segments in it, replacing the last marks. */
+  mark(segmentsIn) {
+    for (const object of this.marked) object.removeFromParent();
+    this.marked = segmentsIn
+      .filter(([, segments]) => segments.length > 0)
+      .map(([scene, segments]) => {
+        const object = segmentsOf(Float32Array.from(segments), { colour: rgb(colours.selected), width: 3.5, bias: 0.02 });
+        this.scenes[scene].add(object);
+        return object;
+      });
   }
 }

@@ -163,26 +163,23 @@ export class Viewer {
     );
     const along = new Vector3(0, 0, -1).applyQuaternion(view.orientation);
     const radius = (pickRadius * 2 * view.halfHeight) / inner.height;
-    const scene = { surface: 'space', plane: 'plane', result: 'result', overlay: 'space' }[pane.name];
-    const points = {
-      space: stage.surface?.corners.space,
-      plane: stage.surface?.corners.plane,
-      result: stage.result?.cornerPoints,
-    }[scene];
-    const hit = firstTriangle(points, on.toArray(), along.toArray());
-    let things = [];
-    if (hit) {
-      things =
-        scene === 'result'
-          ? this.describer.result(stage, hit, radius)
-          : this.describer.surface(stage, scene, hit, radius);
-    }
-    stage.mark(
-      scene,
-      things.flatMap((thing) => [...(thing.marks ?? [])]),
-    );
+    // Where a result is laid over its input both are under the pointer: what is on top comes first.
+    const scenes = { surface: ['space'], plane: ['plane'], result: ['result'], overlay: ['over', 'space'] }[pane.name];
+    const picked = scenes.map((scene) => ({ scene, things: this.thingsAt(scene, on, along, radius) }));
+    stage.mark(picked.map(({ scene, things }) => [scene, things.flatMap((thing) => [...(thing.marks ?? [])])]));
+    const things = picked.flatMap(({ things }) => things);
     this.onPick(pane.name, things);
     this.soon();
+  }
+
+  /** What a ray meets of a scene. */
+  thingsAt(scene, on, along, radius) {
+    const { stage, describer } = this;
+    const ofResult = scene === 'result' || scene === 'over';
+    const points = ofResult ? stage.result?.cornerPoints : stage.surface?.corners[scene];
+    const hit = points && firstTriangle(points, on.toArray(), along.toArray());
+    if (!hit) return [];
+    return ofResult ? describer.result(stage, hit, radius) : describer.surface(stage, scene, hit, radius);
   }
 
   /** Dragging turns (with Shift, or the right button, moves), the wheel grows, a click picks, a double click looks at everything. */
