@@ -12,8 +12,6 @@ namespace view {
 
 using namespace anisomesh;
 using OpenMesh::EdgeHandle;
-using OpenMesh::FaceHandle;
-using OpenMesh::VertexHandle;
 
 namespace {
 

@@ -63,7 +63,7 @@ std::string find_chromium() {
     throw anisomesh::CannotProcess(std::string("ANISOMESH_CHROMIUM names no program: ") + wanted);
   }
   for (const char* name : {"chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome"})
-    if (const auto found = find_program(name); !found.empty()) return found;
+    if (auto found = find_program(name); !found.empty()) return found;
   throw anisomesh::CannotProcess(
       "a picture needs Chromium and none is on the path; install the package 'chromium', or name one in "
       "ANISOMESH_CHROMIUM (pages and --svg do without)");

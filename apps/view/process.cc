@@ -36,6 +36,7 @@ bool can_run(const std::string& path) {
   dup2(errors, STDERR_FILENO);
   for (const char* name : {"HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME"}) setenv(name, home.c_str(), 1);
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const auto& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   execv(arguments[0], arguments.data());
@@ -82,7 +83,7 @@ std::string find_program(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::string candidate = (folder.empty() ? "." : folder) + "/" + name;
+    std::string candidate = (folder.empty() ? "." : folder) + "/" + name;
     if (can_run(candidate)) return candidate;
   }
   return {};
