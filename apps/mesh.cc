@@ -1,7 +1,7 @@
 // anisomesh-mesh: polygons from lines of curvature.
 #include <nlohmann/json.hpp>
 
-#include "anisomesh/fit.hh"
+#include "anisomesh/balance.hh"
 #include "anisomesh/io.hh"
 #include "support/command.hh"
 #include "support/options.hh"
@@ -13,21 +13,25 @@ int main(int argc, char* argv[]) {
   std::string input, output;
   anisomesh::MeshOptions polygons;
   anisomesh::FitOptions fit;
+  anisomesh::BalanceOptions balance;
   command.input(input, "input", "What anisomesh-trace wrote, .om");
   command.output(output,
                  "Where to write the result: .obj, .off, .ply or .om (with the origin of each element)");
   apps::add_mesh_options(command, polygons);
-  apps::add_fit_options(command, fit);
+  apps::add_fit_options(command, fit, balance);
 
   return command.run(argc, argv, [&] {
     polygons.validate();
     fit.validate();
+    balance.validate();
     auto mesh = apps::read_surface(command, input);
     anisomesh::MeshReport report;
     auto result = anisomesh::build_polygons(mesh, polygons, &report, command.progress("polygons"));
-    if (fit.enabled)
+    if (fit.enabled) {
+      balance.max_degree = polygons.max_degree;
       command.report()["fit"] =
-          apps::to_json(anisomesh::fit_vertices(mesh, result, fit, command.progress("fit")));
+          apps::to_json(anisomesh::balance_vertices(mesh, result, balance, fit, command.progress("fit")));
+    }
     command.stop_if_cancelled();
     anisomesh::write_mesh(result, output);
     command.report()["mesh"] = apps::to_json(report);

@@ -54,7 +54,7 @@ int main(int argc, char* argv[]) {
   apps::add_domain_option(command, options.domain);
   apps::add_smoothing_options(command, options.smoothing);
   apps::add_mesh_options(command, options.mesh);
-  apps::add_fit_options(command, options.fit);
+  apps::add_fit_options(command, options.fit, options.balance);
 
   return command.run(argc, argv, [&] {
     options.trace.density.epsilon_fraction = epsilon.epsilon;
@@ -78,7 +78,7 @@ int main(int argc, char* argv[]) {
     command.report()["smoothing"] = apps::to_json(report.smoothing);
     command.report()["umbilics"] = apps::to_json(report.umbilics);
     apps::add_json(command.report(), report);
-    if (options.fit.enabled) command.report()["fit"] = apps::to_json(report.fit);
+    if (options.fit.enabled) command.report()["fit"] = apps::to_json(report.balance);
     command.report()["result"] = apps::mesh_json(result);
     command.report()["output"] = output;
     command.say(output + ": " + apps::mesh_summary(result));

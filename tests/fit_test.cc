@@ -3,74 +3,25 @@
 
 #include <tbb/global_control.h>
 
-#include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "anisomesh/compare.hh"
-#include "anisomesh/features.hh"
 #include "anisomesh/io.hh"
 #include "anisomesh/properties.hh"
-#include "anisomesh/remesh.hh"
-#include "anisomesh/shapes.hh"
 #include "catch.hh"
 #include "data.hh"
+#include "fitted.hh"
 #include "sound_result.hh"
 
 using namespace anisomesh;
 using OpenMesh::PolyMesh;
 using OpenMesh::TriMesh;
 
-namespace {
-
-TriMesh shape(const std::string& name, int vertices = 4000) {
-  ShapeOptions options;
-  options.vertices = vertices;
-  return make_shape(name, options);
-}
-
-PolyMesh remeshed(TriMesh& mesh, size_t vertices) {
-  RemeshOptions options;
-  options.target_vertices = vertices;
-  options.fit.enabled = false;
-  return remesh(mesh, options);
-}
-
-std::vector<Vec3d> points_of(const PolyMesh& mesh) {
-  std::vector<Vec3d> points;
-  for (const auto v : mesh.vertices()) points.push_back(mesh.point(v));
-  return points;
-}
-
-std::vector<std::vector<int>> faces_of(const PolyMesh& mesh) {
-  std::vector<std::vector<int>> faces;
-  for (const auto f : mesh.faces()) {
-    faces.emplace_back();
-    for (const auto v : f.vertices()) faces.back().push_back(v.idx());
-  }
-  return faces;
-}
-
-/// The largest distance from a feature or border edge of the surface to the nearest one of the result.
-double feature_distance(const SurfaceRef& surface, const PolyMesh& result) {
-  const auto& mesh = surface.connectivity();
-  double largest = 0;
-  for (const auto e : mesh.edges()) {
-    if (!is_feature_or_border(mesh, e)) continue;
-    const Vec3d place = 0.5 * (surface.point(e.v0()) + surface.point(e.v1()));
-    double nearest = 1e300;
-    for (const auto o : result.edges()) {
-      if (!result.is_boundary(o) && !result.status(o).feature()) continue;
-      const Vec3d a = result.point(o.v0()), along = result.point(o.v1()) - a;
-      const double t = std::clamp(((place - a) | along) / along.sqrnorm(), 0.0, 1.0);
-      nearest = std::min(nearest, (place - a - t * along).norm());
-    }
-    largest = std::max(largest, nearest);
-  }
-  return largest;
-}
-
-}  // namespace
+using fitted::faces_of;
+using fitted::feature_distance;
+using fitted::points_of;
+using fitted::remeshed;
+using fitted::shape;
 
 TEST_CASE("the fit more than halves the error of smooth surfaces and leaves the result sound", "[fit]") {
   const std::string name = GENERATE("torus", "ellipsoid", "wave", "sphere");

@@ -184,12 +184,17 @@ void add_mesh_options(Command& command, MeshOptions& options, const std::string&
       ->group(heading);
 }
 
-void add_fit_options(Command& command, FitOptions& options) {
+void add_fit_options(Command& command, FitOptions& fit, BalanceOptions& balance) {
   CLI::App& app = command.arguments();
-  app.add_flag("--fit,!--no-fit", options.enabled,
+  app.add_flag("--fit,!--no-fit", fit.enabled,
                "Move the vertices off the surface to where the error is least")
       ->group("Fit");
-  app.add_option("--fit-passes", options.passes, "Matched and solved at most so often, >= 1")
+  app.add_option("--fit-passes", fit.passes, "Matched and solved at most so often, >= 1")
+      ->type_name("N")
+      ->group("Fit");
+  app.add_option(
+         "--balance", balance.rounds,
+         "With --fit: rounds of moving vertices to where they buy more and parting polygons anew; 0: none")
       ->type_name("N")
       ->group("Fit");
 }

@@ -34,8 +34,8 @@ void add_target_options(Command& command, anisomesh::TargetOptions& options);
 void add_mesh_options(Command& command, anisomesh::MeshOptions& options,
                       const std::string& heading = "Polygons");
 
-/// --fit.
-void add_fit_options(Command& command, anisomesh::FitOptions& options);
+/// --fit and --balance.
+void add_fit_options(Command& command, anisomesh::FitOptions& fit, anisomesh::BalanceOptions& balance);
 
 /// Reads --feature-file; its vertices are those of the file, before anything was dropped on reading.
 /// \throw InvalidInput

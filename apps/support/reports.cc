@@ -121,9 +121,14 @@ Json to_json(const MeshReport& r) {
           {"seconds", r.seconds}};
 }
 
-Json to_json(const FitReport& r) {
-  return {{"rms_before", r.rms_before}, {"rms_after", r.rms_after}, {"passes", r.passes},
-          {"moved", r.moved},           {"held", r.held},           {"seconds", r.seconds}};
+Json to_json(const BalanceReport& r) {
+  return {{"rms_before", r.fit.rms_before},
+          {"rms_after", r.fit.rms_after},
+          {"passes", r.fit.passes},
+          {"parted", r.parted},
+          {"removed", r.removed},
+          {"added", r.added},
+          {"seconds", r.seconds}};
 }
 
 void add_json(Json& json, const TraceAndMeshReport& r) {

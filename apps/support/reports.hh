@@ -24,7 +24,7 @@ Json to_json(const anisomesh::UmbilicReport& report);
 Json to_json(const anisomesh::TraceReport& report);
 Json to_json(const anisomesh::IsotropicReport& report);
 Json to_json(const anisomesh::MeshReport& report);
-Json to_json(const anisomesh::FitReport& report);
+Json to_json(const anisomesh::BalanceReport& report);
 Json to_json(const anisomesh::Comparison& comparison);
 /// "plane", "charts" or "surface".
 std::string name_of(anisomesh::Domain domain);

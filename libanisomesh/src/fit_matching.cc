@@ -142,56 +142,81 @@ bool FitMatching::nearest(const Vec3d& place, const Vec3d& normal, const FitTria
   return true;
 }
 
-// Every face gets a polygon to start from, handed on from face to face from those the vertices lie in.
+// Of the polygons at some vertices, on whatever side of features, the one beside a face of the input.
+int FitMatching::best_at(const int* begin, const int* end, OpenMesh::FaceHandle face,
+                         const FitTriangles& triangles, const std::vector<Vec3d>& points) const {
+  const Vec3d centre = centre_of(face);
+  int best = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (const int* v = begin; v != end; ++v)
+    for (int i = mesh_.first_polygon[at(*v)]; i < mesh_.first_polygon[at(*v) + 1]; ++i) {
+      const int p = mesh_.polygons[at(i)];
+      if (best < 0) best = p;
+      for (int t = triangles.first[at(p)]; t < triangles.first[at(p) + 1]; ++t) {
+        const double cosine = triangles.normal[at(t)] | input_.normal[at(face.idx())];
+        if (!(cosine > 0)) continue;
+        const Triangle& c = triangles.corner[at(t)];
+        const Vec3d &x = points[at(c[0])], &y = points[at(c[1])], &z = points[at(c[2])];
+        const Vec3d w = closest_barycentric(centre, x, y, z);
+        // What faces the same way comes first where both are near.
+        const double squared = (w[0] * x + w[1] * y + w[2] * z - centre).sqrnorm() / (cosine * cosine);
+        if (squared < least) least = squared, best = p;
+      }
+    }
+  return best;
+}
+
+Vec3d FitMatching::centre_of(OpenMesh::FaceHandle face) const {
+  const auto c = surface_.corners(face);
+  return (surface_.point(c.vertex[0]) + surface_.point(c.vertex[1]) + surface_.point(c.vertex[2])) / 3.0;
+}
+
+// Every face gets a polygon to start from, handed on from face to face from those the vertices lie in: first
+// inner vertices, then those on features, whose source is on one side of them, then across features.
 void FitMatching::flood(const std::vector<OpenMesh::FaceHandle>& sources, const FitTriangles& triangles,
                         const std::vector<Vec3d>& points) {
   const auto& mesh = surface_.connectivity();
   std::vector<int> polygon(mesh.n_faces(), -1);
   std::vector<int> queue;
+  size_t next = 0;
   const auto settle = [&](OpenMesh::FaceHandle face, int start) {
-    if (polygon[at(face.idx())] >= 0) return;
-    const auto c = surface_.corners(face);
-    const Vec3d centre =
-        (surface_.point(c.vertex[0]) + surface_.point(c.vertex[1]) + surface_.point(c.vertex[2])) / 3.0;
+    if (start < 0) return;
     FitPair pair;
-    nearest(centre, input_.normal[at(face.idx())], triangles, points, start, pair);
+    nearest(centre_of(face), input_.normal[at(face.idx())], triangles, points, start, pair);
     polygon[at(face.idx())] = start;
     queue.push_back(face.idx());
   };
-  const auto is_wall = [&](OpenMesh::EdgeHandle e) {
-    return mesh.has_edge_status() && mesh.status(e).feature();
+  const auto spread = [&] {
+    for (; next < queue.size(); ++next) {
+      const OpenMesh::FaceHandle face(queue[next]);
+      for (const auto h : mesh.fh_range(face)) {
+        const auto beside = mesh.face_handle(mesh.opposite_halfedge_handle(h));
+        const bool wall = mesh.has_edge_status() && mesh.status(mesh.edge_handle(h)).feature();
+        if (beside.is_valid() && !wall && polygon[at(beside.idx())] < 0)
+          settle(beside, polygon[at(face.idx())]);
+      }
+    }
   };
-  for (int v = 0; v < mesh_.n_vertices; ++v) {
-    if (mesh_.first_polygon[at(v)] == mesh_.first_polygon[at(v) + 1]) continue;
-    // The polygon at the vertex that this face lies in, not the one on the other side of a feature.
-    int best = -1;
-    double least = std::numeric_limits<double>::infinity();
-    const auto face = sources[at(v)];
-    const auto c = surface_.corners(face);
-    const Vec3d centre =
-        (surface_.point(c.vertex[0]) + surface_.point(c.vertex[1]) + surface_.point(c.vertex[2])) / 3.0;
-    for (int i = mesh_.first_polygon[at(v)]; i < mesh_.first_polygon[at(v) + 1]; ++i) {
-      const int p = mesh_.polygons[at(i)];
-      const double far = (triangles.centre[at(p)] - centre).sqrnorm();
-      if (far < least) least = far, best = p;
-    }
-    settle(face, best);
+  std::vector<char> on_curve(at(mesh_.n_vertices), 0);
+  for (const auto& side : mesh_.sides)
+    if (side.on_curve) on_curve[at(side.from)] = on_curve[at(side.to)] = 1;
+  for (const bool curve : {false, true}) {
+    for (int v = 0; v < mesh_.n_vertices; ++v)
+      if ((on_curve[at(v)] != 0) == curve && polygon[at(sources[at(v)].idx())] < 0)
+        settle(sources[at(v)], best_at(&v, &v + 1, sources[at(v)], triangles, points));
+    spread();
   }
-  for (size_t i = 0; i < queue.size(); ++i) {
-    const OpenMesh::FaceHandle face(queue[i]);
-    for (const auto h : mesh.fh_range(face)) {
-      const auto next = mesh.face_handle(mesh.opposite_halfedge_handle(h));
-      if (next.is_valid() && !is_wall(mesh.edge_handle(h))) settle(next, polygon[at(face.idx())]);
-    }
-    // Sides of features that no vertex lies on are reached across them, after everything else.
-    if (i + 1 < queue.size()) continue;
-    for (const auto e : mesh.edges()) {
-      const auto f = mesh.face_handle(mesh.halfedge_handle(e, 0)),
-                 g = mesh.face_handle(mesh.halfedge_handle(e, 1));
-      if (!f.is_valid() || !g.is_valid()) continue;
-      if (polygon[at(f.idx())] >= 0 && polygon[at(g.idx())] < 0) settle(g, polygon[at(f.idx())]);
-      if (polygon[at(g.idx())] >= 0 && polygon[at(f.idx())] < 0) settle(f, polygon[at(g.idx())]);
-    }
+  for (size_t known = 0; known < queue.size();) {
+    known = queue.size();
+    for (const auto e : mesh.edges())
+      for (const unsigned k : {0U, 1U}) {
+        const auto f = mesh.face_handle(mesh.halfedge_handle(e, k)),
+                   g = mesh.face_handle(mesh.halfedge_handle(e, 1 - k));
+        if (!f.is_valid() || !g.is_valid() || polygon[at(f.idx())] < 0 || polygon[at(g.idx())] >= 0) continue;
+        const int p = polygon[at(f.idx())];
+        settle(g, best_at(mesh_.begin(p), mesh_.end(p), g, triangles, points));
+      }
+    spread();
   }
   for (Sample& sample : samples_) sample.polygon = polygon[at(sample.face)];
 }

@@ -40,17 +40,22 @@ class FitMatching {
   /// Pairs of both ways, those of the input first; each way's weights add up to 1.
   const std::vector<FitPair>& match(const FitTriangles& triangles, const std::vector<Vec3d>& points);
 
-  /// The polygon that the middle of a face of the input is matched with; -1: none.
-  int polygon_of(int face) const;
-
- private:
   struct Sample {
     Vec3d place{0, 0, 0};
     int face = -1;
     double weight = 0;
-    int polygon = -1;
+    int polygon = -1;  ///< that it was matched with last
   };
+  /// Of the input; their pairs come first.
+  const std::vector<Sample>& samples() const { return samples_; }
+  /// The polygon that the middle of a face of the input is matched with; -1: none.
+  int polygon_of(int face) const;
+
+ private:
   void place_samples();
+  int best_at(const int* begin, const int* end, OpenMesh::FaceHandle face, const FitTriangles& triangles,
+              const std::vector<Vec3d>& points) const;
+  Vec3d centre_of(OpenMesh::FaceHandle face) const;
   void flood(const std::vector<OpenMesh::FaceHandle>& sources, const FitTriangles& triangles,
              const std::vector<Vec3d>& points);
   bool nearest(const Vec3d& place, const Vec3d& normal, const FitTriangles& triangles,

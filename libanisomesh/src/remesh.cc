@@ -12,6 +12,7 @@ void RemeshOptions::validate() const {
   trace.validate();
   mesh.validate();
   fit.validate();
+  balance.validate();
 }
 
 OpenMesh::PolyMesh remesh(const SurfaceRef& surface, const RemeshOptions& options, RemeshReport* report,
@@ -26,10 +27,14 @@ OpenMesh::PolyMesh remesh(const SurfaceRef& surface, const RemeshOptions& option
   done.smoothing = smooth_tensors(surface, options.smoothing, sub_progress(progress, 0.3, 0.4));
   report_progress(progress, 0.4);
   done.umbilics = find_umbilics(surface);
-  OpenMesh::PolyMesh result =
-      trace_and_mesh(surface, options.trace, options.mesh, options, &done, sub_progress(progress, 0.4, options.fit.enabled ? 0.8 : 1));
-  if (options.fit.enabled)
-    done.fit = fit_vertices(surface, result, options.fit, sub_progress(progress, 0.8, 1));
+  OpenMesh::PolyMesh result = trace_and_mesh(surface, options.trace, options.mesh, options, &done,
+                                             sub_progress(progress, 0.4, options.fit.enabled ? 0.8 : 1));
+  if (options.fit.enabled) {
+    BalanceOptions balance = options.balance;
+    balance.max_degree = options.mesh.max_degree;
+    done.balance = balance_vertices(surface, result, balance, options.fit, sub_progress(progress, 0.8, 1));
+    done.fit = done.balance.fit;
+  }
   done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (report) *report = done;
   return result;

@@ -4,6 +4,7 @@
 #include <OpenMesh/Core/Mesh/DefaultPolyMesh.hh>
 #include <vector>
 
+#include "anisomesh/balance.hh"
 #include "anisomesh/curvature.hh"
 #include "anisomesh/domain.hh"
 #include "anisomesh/features.hh"
@@ -31,7 +32,8 @@ struct RemeshOptions : TargetOptions {
   TraceOptions trace;  ///< trace.density.epsilon_fraction is ignored where a target is given
   MeshOptions mesh;
   FitOptions fit;
-  void validate() const;  ///< \throw InvalidOption
+  BalanceOptions balance;  ///< max_degree is that of `mesh`; only where fit.enabled
+  void validate() const;   ///< \throw InvalidOption
 };
 
 /// One go at a target.
@@ -58,7 +60,8 @@ struct RemeshReport : TraceAndMeshReport {
   DomainReport domain;
   SmoothingReport smoothing;
   UmbilicReport umbilics;
-  FitReport fit;  ///< all 0 unless FitOptions::enabled
+  FitReport fit;          ///< all 0 unless FitOptions::enabled
+  BalanceReport balance;  ///< the same
   double seconds = 0;
 };
 
@@ -71,7 +74,8 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
                                   TraceAndMeshReport* report = nullptr, const Progress& progress = {});
 
 /// Remeshes a surface: tag_features, estimate_curvature, choose_domain, smooth_tensors, find_umbilics,
-/// trace_lines, place_isotropic_samples, build_polygons, fit_vertices. [ACDLD03]
+/// trace_lines, place_isotropic_samples, build_polygons, balance_vertices or
+/// fit_vertices. [ACDLD03]
 /// Reads: points, edge feature status. Writes: on the input mesh the properties of all stages; after a throw
 /// or a cancel those of the stages that were done by then.
 /// \pre in the plane, one component with one border loop \throw InvalidOption, InvalidInput, CannotProcess,

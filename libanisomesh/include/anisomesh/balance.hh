@@ -1,0 +1,40 @@
+// Vertices taken from where they buy little to where they buy much.
+#pragma once
+
+#include <OpenMesh/Core/Mesh/DefaultPolyMesh.hh>
+
+#include "anisomesh/fit.hh"
+#include "anisomesh/progress.hh"
+#include "anisomesh/surface.hh"
+
+namespace anisomesh {
+
+struct BalanceOptions {
+  int rounds = 2;  ///< of moves, each after a few passes of the fit; 0: the fit alone; >= 0
+  /// So many vertices in the end, as far as the moves can; 0: as many as there are
+  size_t target_vertices = 0;
+  /// What a triangle costs on top of its error, in mean errors of a polygon: more keeps more quads; >= 0
+  double triangle_cost = 0.8;
+  /// What a side of mean length costs that lies diagonally to the principal directions, in the same unit; >=
+  /// 0
+  double alignment_cost = 0.5;
+  int max_degree = 4;     ///< 3: makes no quads; other than 3 and 4: no polygon is changed
+  void validate() const;  ///< \throw InvalidOption
+};
+
+struct BalanceReport {
+  FitReport fit;                  ///< of all rounds
+  size_t parted = 0;              ///< groups of polygons partitioned anew
+  size_t removed = 0, added = 0;  ///< vertices
+  double seconds = 0;
+};
+
+/// Changes the connectivity where that lowers the error of the fitted result: polygons are partitioned anew,
+/// vertices removed where they buy least and added where the error is largest.
+/// Reads: as fit_vertices(). Writes: `result`, all of it, with the properties that build_polygons() gives it.
+/// \pre as fit_vertices() \throw as fit_vertices()
+BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& result,
+                               const BalanceOptions& options = {}, const FitOptions& fit = {},
+                               const Progress& progress = {});
+
+}  // namespace anisomesh

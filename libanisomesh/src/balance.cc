@@ -1,0 +1,129 @@
+#include "anisomesh/balance.hh"
+
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "anisomesh/errors.hh"
+#include "patch_moves.hh"
+
+namespace anisomesh {
+
+namespace {
+
+using detail::PatchMesh;
+using detail::PatchMove;
+
+constexpr int passes_before = 3, passes_between = 2;
+constexpr double sure = 1.2;  // an exchange must gain this many times what it costs
+
+/// Applies moves as long as none concerns polygons that another has changed.
+class Changes {
+ public:
+  Changes(PatchMesh& mesh) : mesh_(mesh), touched_(mesh.polygons().size(), 0) {}
+
+  bool is_open(const PatchMove& move) const {
+    for (const int p : move.patch.polygons)
+      if (touched_[static_cast<size_t>(p)]) return false;
+    return mesh_.may_replace(move.patch, move.pieces);
+  }
+  void apply(const PatchMove& move) {
+    auto pieces = move.pieces;
+    if (move.adds) {
+      const int middle = mesh_.add_vertex(move.place, move.source);
+      for (auto& piece : pieces)
+        for (int& v : piece)
+          if (v < 0) v = middle;
+    }
+    for (const int p : move.patch.polygons) touched_[static_cast<size_t>(p)] = 1;
+    mesh_.replace(move.patch, pieces);
+    touched_.resize(mesh_.polygons().size(), 1);
+  }
+
+ private:
+  PatchMesh& mesh_;
+  std::vector<char> touched_;
+};
+
+/// Takes removals and additions in turn, as long as that pays, or the number of vertices is not what it is to
+/// be.
+void exchange(Changes& changes, const std::vector<PatchMove>& removals,
+              const std::vector<PatchMove>& additions, long surplus, BalanceReport& report) {
+  size_t r = 0, a = 0;
+  while (true) {
+    while (r < removals.size() && !changes.is_open(removals[r])) ++r;
+    while (a < additions.size() && !changes.is_open(additions[a])) ++a;
+    const bool can_remove = r < removals.size(), can_add = a < additions.size();
+    if (surplus > 0) {
+      if (!can_remove) return;
+      changes.apply(removals[r]), --surplus, ++report.removed;
+    } else if (surplus < 0) {
+      if (!can_add) return;
+      changes.apply(additions[a]), ++surplus, ++report.added;
+    } else {
+      if (!can_remove || !can_add || !(additions[a].gain > -sure * removals[r].gain)) return;
+      changes.apply(additions[a]), --surplus, ++report.added;
+      surplus += 2;  // one more than wanted
+    }
+  }
+}
+
+}  // namespace
+
+void BalanceOptions::validate() const {
+  if (rounds < 0)
+    throw InvalidOption("balance.rounds must not be negative, but is " + std::to_string(rounds));
+  if (!(triangle_cost >= 0)) throw InvalidOption("balance.triangle_cost must not be negative");
+  if (!(alignment_cost >= 0)) throw InvalidOption("balance.alignment_cost must not be negative");
+}
+
+BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& result,
+                               const BalanceOptions& options, const FitOptions& fit_options,
+                               const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  options.validate();
+  fit_options.validate();
+  BalanceReport report;
+  const detail::FitInput input(surface);
+  OpenMesh::PolyMesh work = result, fitted;
+  double rms_fitted = 0;
+  const auto rms = [&](double energy) { return std::sqrt(0.5 * energy) / surface.diagonal(); };
+  const auto fit = [&](int passes) {
+    detail::FitState state(surface, input, work, fit_options);
+    if (report.fit.passes == 0) report.fit.rms_before = rms(state.energy());
+    report.fit.passes += state.improve_often(passes);
+    for (const auto v : work.vertices()) work.set_point(v, state.points()[static_cast<size_t>(v.idx())]);
+    return state;
+  };
+  const long wanted =
+      static_cast<long>(options.target_vertices > 0 ? options.target_vertices : result.n_vertices());
+  const bool change = options.rounds > 0 && (options.max_degree == 3 || options.max_degree == 4);
+  for (int round = 0; change && round < options.rounds; ++round) {
+    report_progress(progress, round / (options.rounds + 1.0));
+    const detail::FitState state = fit(round == 0 ? passes_before : passes_between);
+    if (round == 0) {
+      fitted = work;
+      rms_fitted = rms(state.energy());
+    }
+    const detail::PatchMoves moves(surface, input, state, options);
+    PatchMesh mesh(work);
+    Changes changes(mesh);
+    const auto removals = moves.removals(mesh), additions = moves.additions(mesh);
+    for (const PatchMove& move : moves.repartitions(mesh))
+      if (changes.is_open(move)) changes.apply(move), ++report.parted;
+    exchange(changes, removals, additions, static_cast<long>(work.n_vertices()) - wanted, report);
+    work = mesh.mesh();
+  }
+  report_progress(progress, options.rounds / (options.rounds + 1.0));
+  report.fit.rms_after = rms(fit(fit_options.passes).energy());
+  report_progress(progress, 1);
+  // A given number of vertices may have cost more than the moves have gained.
+  const bool worse = change && options.target_vertices == 0 && report.fit.rms_after > rms_fitted;
+  if (worse) report.fit.rms_after = rms_fitted;
+  result = worse ? std::move(fitted) : std::move(work);
+  report.fit.seconds = report.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+}  // namespace anisomesh

@@ -1,0 +1,130 @@
+#include "fit_state.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "anisomesh/errors.hh"
+#include "anisomesh/mesher.hh"
+#include "anisomesh/properties.hh"
+#include "fit_guard.hh"
+#include "fit_terms.hh"
+
+namespace anisomesh::detail {
+
+namespace {
+
+constexpr int max_attempts = 3;
+constexpr double settled = 0.995;  // of the squared error: a pass that gains less is the last
+constexpr double shorter = 0.4;    // a step that did not help
+
+std::vector<Vec3d> points_of(const OpenMesh::PolyMesh& result) {
+  std::vector<Vec3d> points;
+  for (const auto v : result.vertices()) points.push_back(result.point(v));
+  return points;
+}
+
+std::vector<OpenMesh::FaceHandle> sources_of(const SurfaceRef& surface, const OpenMesh::PolyMesh& result) {
+  const auto source = require_property(result, property::source_face);
+  const int n_faces = static_cast<int>(surface.connectivity().n_faces());
+  std::vector<OpenMesh::FaceHandle> sources;
+  for (const auto v : result.vertices()) {
+    const int face = result.property(source, v);
+    if (face < 0 || face >= n_faces)
+      throw InvalidInput("vertex " + std::to_string(v.idx()) + " of the result comes from face " +
+                         std::to_string(face) +
+                         ", which the surface does not have; it was made from another");
+    sources.emplace_back(face);
+  }
+  return sources;
+}
+
+/// All but corners: where a feature or border ends, meets another, or turns sharply.
+std::vector<char> free_vertices(const OpenMesh::PolyMesh& result, const FitMesh& mesh) {
+  const auto origin = require_property(result, property::origin);
+  std::vector<int> on_curves(result.n_vertices(), 0);
+  for (const auto& side : mesh.sides)
+    if (side.on_curve)
+      for (const int v : {side.from, side.to}) ++on_curves[static_cast<size_t>(v)];
+  std::vector<char> free;
+  for (const auto v : result.vertices()) {
+    const int curves = on_curves[static_cast<size_t>(v.idx())];
+    free.push_back((curves == 0 || curves == 2) &&
+                   result.property(origin, v) != static_cast<int>(Origin::corner));
+  }
+  return free;
+}
+
+double energy_of(const std::vector<FitPair>& pairs) {
+  double sum = 0;
+  for (const FitPair& pair : pairs) sum += pair.weight * pair.distance * pair.distance;
+  return sum;
+}
+
+}  // namespace
+
+FitState::FitState(const SurfaceRef& surface, const FitInput& input, const OpenMesh::PolyMesh& result,
+                   const FitOptions& options)
+    : options_(options),
+      input_(input),
+      mesh_(result),
+      free_(free_vertices(result, mesh_)),
+      points_(points_of(result)),
+      triangles_(mesh_, points_),
+      matching_(surface, input_, mesh_, sources_of(surface, result), triangles_, points_),
+      curves_(surface, mesh_, matching_, points_),
+      pairs_(matching_.match(triangles_, points_)),
+      energy_(energy_of(pairs_)) {}
+
+size_t FitState::improve() {
+  std::vector<Vec3d> step = solve();
+  const FitGuard guard(mesh_, triangles_, input_, pairs_);
+  const auto strays = [&](const std::vector<Vec3d>& points, std::vector<char>& marked) {
+    curves_.mark_strays(points, marked);
+  };
+  for (int attempt = 0; attempt < max_attempts; ++attempt) {
+    size_t held = 0;
+    std::vector<Vec3d> moved = guard.move(points_, step, strays, held);
+    FitTriangles split(mesh_, moved);
+    std::vector<FitPair> matched = matching_.match(split, moved);
+    const double reached = energy_of(matched);
+    if (reached < energy_) {
+      energy_ = reached;
+      points_ = std::move(moved);
+      triangles_ = std::move(split);
+      pairs_ = std::move(matched);
+      curves_.match(points_);
+      return held;
+    }
+    for (Vec3d& s : step) s *= shorter;
+  }
+  return 0;
+}
+
+int FitState::improve_often(int passes, size_t* held, const Progress& progress) {
+  int done = 0;
+  while (done < passes) {
+    report_progress(progress, done / static_cast<double>(passes));
+    const double before = energy_;
+    const size_t held_now = improve();
+    if (held) *held = std::max(*held, held_now);
+    ++done;
+    if (!(energy_ < settled * before)) break;
+  }
+  report_progress(progress, 1);
+  return done;
+}
+
+std::vector<Vec3d> FitState::solve() const {
+  FitSystem system(free_, 6 * triangles_.corner.size() + 16 * mesh_.sides.size());
+  add_surface_terms(mesh_, triangles_, input_, pairs_, points_, options_, system);
+  double area = 0;
+  for (const double a : triangles_.area) area += a;
+  if (area > 0) {
+    add_planarity(mesh_, points_, options_.planarity_weight, area, system);
+    curves_.add_terms(points_, std::sqrt(area / mesh_.n_polygons()), area, system);
+  }
+  return system.solve();
+}
+
+}  // namespace anisomesh::detail

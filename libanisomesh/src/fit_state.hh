@@ -1,0 +1,47 @@
+// One state of the fit: where the vertices are, and what that means.
+#pragma once
+
+#include <OpenMesh/Core/Mesh/DefaultPolyMesh.hh>
+#include <vector>
+
+#include "anisomesh/fit.hh"
+#include "fit_curves.hh"
+#include "fit_matching.hh"
+
+namespace anisomesh::detail {
+
+class FitState {
+ public:
+  /// \throw InvalidInput if the result was made from another surface
+  FitState(const SurfaceRef& surface, const FitInput& input, const OpenMesh::PolyMesh& result,
+           const FitOptions& options);
+
+  /// Twice the squared rms.
+  double energy() const { return energy_; }
+  const std::vector<Vec3d>& points() const { return points_; }
+  const FitMesh& mesh() const { return mesh_; }
+  const FitTriangles& triangles() const { return triangles_; }
+  const FitMatching& matching() const { return matching_; }
+  const std::vector<FitPair>& pairs() const { return pairs_; }
+
+  /// Takes one step, if there is one that lowers the energy. \return vertices that were held back
+  size_t improve();
+  /// At most so often, until little is gained. \return how often
+  int improve_often(int passes, size_t* held = nullptr, const Progress& progress = {});
+
+ private:
+  std::vector<Vec3d> solve() const;
+
+  const FitOptions& options_;
+  const FitInput& input_;
+  const FitMesh mesh_;
+  const std::vector<char> free_;
+  std::vector<Vec3d> points_;
+  FitTriangles triangles_;
+  FitMatching matching_;
+  FitCurves curves_;
+  std::vector<FitPair> pairs_;
+  double energy_;
+};
+
+}  // namespace anisomesh::detail

@@ -1,0 +1,250 @@
+#include "patch_moves.hh"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace anisomesh::detail {
+
+namespace {
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+constexpr size_t most_corners = 12;      // of a patch
+constexpr double worth_a_look = 0.7;     // mean errors: better polygons are left alone
+constexpr double tried_removals = 0.35;  // of all vertices, those that seem cheapest
+constexpr double worth_adding = 2;       // mean errors: there a vertex may be added
+
+void sort_by_gain(std::vector<PatchMove>& moves) {
+  moves.erase(std::remove_if(moves.begin(), moves.end(), [](const PatchMove& m) { return m.pieces.empty(); }),
+              moves.end());
+  std::stable_sort(moves.begin(), moves.end(),
+                   [](const PatchMove& a, const PatchMove& b) { return a.gain > b.gain; });
+}
+
+// What the sides inside a patch cost as they are.
+double inner_chords(const PatchMesh& mesh, const PatchMesh::Patch& patch, const PatchView& view) {
+  double sum = 0;
+  for (const int p : patch.polygons) {
+    const auto& polygon = mesh.polygons()[at(p)];
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const int v = polygon[i], w = polygon[(i + 1) % polygon.size()];
+      const int q = v < w ? mesh.across(v, w) : -1;  // each once
+      if (std::find(patch.polygons.begin(), patch.polygons.end(), q) != patch.polygons.end())
+        sum += view.chord(mesh.point(v), mesh.point(w));
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+/// A patch, and what has to be known to change it.
+struct PatchMoves::Situation {
+  std::vector<Vec3d> ring;
+  Vec3d normal{0, 0, 0};
+  std::vector<PatchSample> samples;
+  std::vector<int> numbers;  // of the samples
+  std::vector<char> forbidden;
+  double error = 0;
+  double costs = 0;  // of what is there
+  Vec6d tensor{0, 0, 0, 0, 0, 0};
+  bool possible = false;
+};
+
+PatchMoves::PatchMoves(const SurfaceRef& surface, const FitInput& input, const FitState& fit,
+                       const BalanceOptions& options)
+    : surface_(surface), input_(input), fit_(fit) {
+  const auto& mesh = fit.mesh();
+  const auto& triangles = fit.triangles();
+  const auto& samples = fit.matching().samples();
+  std::vector<int> polygon_of(triangles.corner.size());
+  for (int p = 0; p < mesh.n_polygons(); ++p)
+    for (int t = triangles.first[at(p)]; t < triangles.first[at(p) + 1]; ++t) polygon_of[at(t)] = p;
+  error_.assign(at(mesh.n_polygons()), 0);
+  first_sample_.assign(at(mesh.n_polygons()) + 1, 0);
+  double total = 0;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const FitPair& pair = fit.pairs()[i];
+    if (pair.triangle < 0) continue;
+    const double error = pair.weight * pair.distance * pair.distance;
+    error_[at(polygon_of[at(pair.triangle)])] += error;
+    ++first_sample_[at(polygon_of[at(pair.triangle)]) + 1];
+    total += error;
+  }
+  for (size_t p = 0; p + 1 < first_sample_.size(); ++p) first_sample_[p + 1] += first_sample_[p];
+  sample_.resize(at(first_sample_.back()));
+  std::vector<int> next(first_sample_.begin(), first_sample_.end() - 1);
+  for (size_t i = 0; i < samples.size(); ++i)
+    if (fit.pairs()[i].triangle >= 0)
+      sample_[at(next[at(polygon_of[at(fit.pairs()[i].triangle)])]++)] = static_cast<int>(i);
+  mean_error_ = total / std::max(1, mesh.n_polygons());
+  costs_.triangle = options.triangle_cost * mean_error_;
+  costs_.quads = options.max_degree == 4;
+  double length = 0;
+  for (const auto& side : mesh.sides)
+    length += (fit.points()[at(side.to)] - fit.points()[at(side.from)]).norm();
+  if (length > 0)
+    costs_.chord = options.alignment_cost * mean_error_ * static_cast<double>(mesh.sides.size()) / length;
+}
+
+PatchMoves::Situation PatchMoves::look_at(const PatchMesh& mesh, const PatchMesh::Patch& patch) const {
+  Situation s;
+  const size_t n = patch.ring.size();
+  if (n < 3 || n > most_corners) return s;
+  for (const int p : patch.polygons) {
+    s.error += error_[at(p)];
+    if (mesh.polygons()[at(p)].size() == 3) s.costs += costs_.triangle;
+    for (int i = first_sample_[at(p)]; i < first_sample_[at(p) + 1]; ++i) {
+      const auto& sample = fit_.matching().samples()[at(sample_[at(i)])];
+      s.samples.push_back({sample.place, sample.weight});
+      s.numbers.push_back(sample_[at(i)]);
+      s.normal += sample.weight * input_.normal[at(sample.face)];
+      if (!input_.tensor.empty()) s.tensor += sample.weight * input_.tensor[at(sample.face)];
+    }
+  }
+  const double length = s.normal.norm();
+  if (!(length > 0)) return s;
+  s.normal /= length;
+  for (const int v : patch.ring) s.ring.push_back(mesh.point(v));
+  s.forbidden.assign(n * n, 0);
+  for (size_t i = 0; i < n; ++i)
+    for (size_t j = i + 2; j < n; ++j)
+      s.forbidden[i * n + j] = mesh.joined_outside(patch, patch.ring[i], patch.ring[j]);
+  s.possible = true;
+  return s;
+}
+
+PatchMove PatchMoves::partition(const PatchMesh& mesh, const PatchMesh::Patch& patch) const {
+  PatchMove move;
+  const Situation s = look_at(mesh, patch);
+  if (!s.possible) return move;
+  const PatchView view(s.normal, s.samples, s.tensor, costs_);
+  PatchPieces found = partition_ring(view, s.ring, s.forbidden);
+  if (!std::isfinite(found.cost)) return move;
+  move.patch = patch;
+  move.gain = s.error + s.costs + inner_chords(mesh, patch, view) - found.cost;
+  for (auto& piece : found.pieces) {
+    for (int& i : piece) i = patch.ring[at(i)];
+    move.pieces.push_back(std::move(piece));
+  }
+  if (!mesh.may_replace(patch, move.pieces)) move.pieces.clear();
+  return move;
+}
+
+PatchMove PatchMoves::addition(const PatchMesh& mesh, const PatchMesh::Patch& patch) const {
+  PatchMove move;
+  const Situation s = look_at(mesh, patch);
+  if (!s.possible || s.samples.empty()) return move;
+  const PatchView view(s.normal, s.samples, s.tensor, costs_);
+  size_t worst = 0;
+  double largest = -1;
+  for (size_t i = 0; i < s.numbers.size(); ++i) {
+    const double distance = fit_.pairs()[at(s.numbers[i])].distance;
+    if (distance > largest) largest = distance, worst = i;
+  }
+  const auto& sample = fit_.matching().samples()[at(s.numbers[worst])];
+  Vec3d middle = view.best_middle(view.best_middle(sample.place, s.ring), s.ring);
+  PatchPieces found = partition_around(view, s.ring, middle);
+  const PatchPieces there = partition_around(view, s.ring, sample.place);
+  if (!(found.cost <= there.cost)) {
+    found = there;
+    middle = sample.place;
+  }
+  if (!std::isfinite(found.cost)) return move;
+  move.patch = patch;
+  move.gain = s.error + s.costs + inner_chords(mesh, patch, view) - found.cost;
+  move.adds = true;
+  move.place = middle;
+  const OpenMesh::FaceHandle face(sample.face);
+  const auto c = surface_.corners(face);
+  move.source = {face, closest_barycentric(sample.place, surface_.point(c.vertex[0]),
+                                           surface_.point(c.vertex[1]), surface_.point(c.vertex[2]))};
+  for (auto& piece : found.pieces) {
+    for (int& i : piece) i = at(i) < patch.ring.size() ? patch.ring[at(i)] : -1;
+    move.pieces.push_back(std::move(piece));
+  }
+  if (!mesh.may_replace(patch, move.pieces)) move.pieces.clear();
+  return move;
+}
+
+std::vector<PatchMove> PatchMoves::repartitions(const PatchMesh& mesh) const {
+  std::vector<std::vector<int>> groups;
+  for (size_t p = 0; p < error_.size(); ++p) {
+    const auto& polygon = mesh.polygons()[p];
+    if (polygon.size() > 3 && error_[p] > worth_a_look * mean_error_) groups.push_back({static_cast<int>(p)});
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const int q = mesh.across(polygon[i], polygon[(i + 1) % polygon.size()]);
+      if (q <= static_cast<int>(p)) continue;
+      const bool triangles = polygon.size() == 3 && mesh.polygons()[at(q)].size() == 3;
+      if (triangles || error_[p] + error_[at(q)] > 2 * worth_a_look * mean_error_)
+        groups.push_back({static_cast<int>(p), q});
+    }
+  }
+  std::vector<PatchMove> moves(groups.size());
+  tbb::parallel_for(size_t{0}, groups.size(), [&](size_t i) {
+    PatchMove move = partition(mesh, mesh.join(groups[i]));
+    if (move.gain > 0.05 * mean_error_) moves[i] = std::move(move);
+  });
+  sort_by_gain(moves);
+  return moves;
+}
+
+// A guess at what the removal of a vertex costs: its squared height over the vertices around it, by the area.
+double PatchMoves::guess(const PatchMesh& mesh, const PatchMesh::Patch& star, int vertex) const {
+  Vec3d middle(0, 0, 0), normal(0, 0, 0);
+  const size_t n = star.ring.size();
+  for (size_t i = 0; i < n; ++i) {
+    const Vec3d &a = mesh.point(star.ring[i]), &b = mesh.point(star.ring[(i + 1) % n]);
+    middle += a / static_cast<double>(n);
+    normal += cross(a - mesh.point(vertex), b - mesh.point(vertex));
+  }
+  const double length = normal.norm();
+  if (!(length > 0)) return std::numeric_limits<double>::infinity();
+  const double height = ((mesh.point(vertex) - middle) | normal) / length;
+  return length * height * height;
+}
+
+std::vector<PatchMove> PatchMoves::removals(const PatchMesh& mesh) const {
+  const size_t n = mesh.vertices().size();
+  std::vector<PatchMesh::Patch> stars(n);
+  std::vector<std::pair<double, int>> guesses(n);
+  tbb::parallel_for(size_t{0}, n, [&](size_t v) {
+    stars[v] = mesh.star(static_cast<int>(v));
+    guesses[v] = {stars[v].ring.empty() ? std::numeric_limits<double>::infinity()
+                                        : guess(mesh, stars[v], static_cast<int>(v)),
+                  static_cast<int>(v)};
+  });
+  std::sort(guesses.begin(), guesses.end());
+  std::vector<PatchMove> moves(static_cast<size_t>(tried_removals * static_cast<double>(n)));
+  tbb::parallel_for(size_t{0}, moves.size(), [&](size_t i) {
+    const auto& star = stars[at(guesses[i].second)];
+    if (!star.ring.empty()) moves[i] = partition(mesh, star);
+  });
+  sort_by_gain(moves);
+  return moves;
+}
+
+std::vector<PatchMove> PatchMoves::additions(const PatchMesh& mesh) const {
+  std::vector<std::vector<int>> groups;
+  for (size_t p = 0; p < error_.size(); ++p) {
+    if (!(error_[p] > worth_adding * mean_error_)) continue;
+    const auto& polygon = mesh.polygons()[p];
+    groups.push_back({static_cast<int>(p)});
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const int q = mesh.across(polygon[i], polygon[(i + 1) % polygon.size()]);
+      if (q >= 0) groups.push_back({static_cast<int>(p), q});
+    }
+  }
+  std::vector<PatchMove> moves(groups.size());
+  tbb::parallel_for(size_t{0}, groups.size(), [&](size_t i) {
+    PatchMove move = addition(mesh, mesh.join(groups[i]));
+    if (move.gain > 0) moves[i] = std::move(move);
+  });
+  sort_by_gain(moves);
+  return moves;
+}
+
+}  // namespace anisomesh::detail
