@@ -42,6 +42,7 @@ MeshEmbedding::MeshEmbedding(const SurfaceRef& surface, const Overlay& overlay, 
     normals_.push_back(length > 0 ? normal / length : normal);
   }
   pinned_.resize(normals_.size());
+  add_samples(surface, overlay, network);
 }
 
 // Vertices beyond the two across the edge that both its ends have as neighbours would become a pinch; a
@@ -90,8 +91,10 @@ bool MeshEmbedding::collapse(VertexHandle gone, VertexHandle keep, Care care) {
   if (!h.is_valid() || !is_topology_kept(h)) return false;
   if (care != Care::topology && !is_shape_kept(h, care)) return false;
   lay_flat(gone);
+  if (care != Care::topology && star_.has_samples && !are_samples_kept(keep)) return false;
+  for (const auto f : mesh_.vf_range(gone)) pinned_[at(f.idx())].clear();
   mesh_.collapse(h);
-  pin_again(keep);
+  pin_again(around(keep));
   for (const auto f : mesh_.vf_range(keep)) {
     auto v = mesh_.cfv_begin(f);
     const Vec3d &p = mesh_.point(*v), &q = mesh_.point(*++v), &r = mesh_.point(*++v);

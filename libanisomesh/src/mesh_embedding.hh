@@ -39,9 +39,16 @@ class MeshEmbedding final : public Embedding {
   /// two triangles laid flat).
   void flip(const NetworkGraph& network);
 
-  /// A vertex of the surface that is gone, where it would lie in a triangle.
+  /// A place of the surface inside a triangle that has all corners on features or the border: without it
+  /// nothing but those would know where the surface is, as in the wall of a hole between its rims.
+  struct Sample {
+    SurfacePoint point;
+    Vec3d position;
+    Vec3d normal;
+  };
+  /// A vertex of the surface that is gone, or a sample, where it would lie in a triangle.
   struct Pinned {
-    int vertex;
+    int vertex;  ///< from the number of vertices on: of the samples
     Vec3d barycentric;
   };
   struct Triangle {
@@ -52,6 +59,10 @@ class MeshEmbedding final : public Embedding {
   std::vector<Triangle> triangles() const;
   /// The nodes that the edges of the triangulation join a node to.
   std::vector<int> neighbours(int node) const;
+  /// The sample that is pinned, or null: it is a vertex.
+  const Sample* sample(const Pinned& pinned) const {
+    return pinned.vertex < vertices_ ? nullptr : &samples_[static_cast<size_t>(pinned.vertex - vertices_)];
+  }
 
  private:
   enum class Care { shape, turning, topology };
@@ -63,10 +74,31 @@ class MeshEmbedding final : public Embedding {
     };
     std::vector<std::pair<int, Vec2d>> ring;  ///< vertices around it
     std::vector<Point> points;
+    bool closed = true;  ///< the last vertex of the ring is a neighbour of the first
+    bool has_samples = false;
+  };
+  /// A triangle that takes the place of a part of the star.
+  struct Candidate {
+    std::array<int, 3> node;
+    OpenMesh::FaceHandle face;
+    std::array<Vec2d, 3> corner{};
+    double area = 0;  ///< twice
+  };
+  struct Landing {
+    const Candidate* candidate = nullptr;
+    Vec3d barycentric{0, 0, 0};
   };
 
+  void add_samples(const SurfaceRef& surface, const Overlay& overlay, const NetworkGraph& network);
   void lay_flat(OpenMesh::VertexHandle v);
-  void pin_again(OpenMesh::VertexHandle keep);
+  void lay_flat(OpenMesh::EdgeHandle e);
+  std::vector<Candidate> placed(const std::vector<Candidate>& candidates) const;
+  Landing land(const FlatStar::Point& x, const std::vector<Candidate>& candidates) const;
+  double agreement(const std::vector<Candidate>& candidates) const;
+  bool are_samples_kept(OpenMesh::VertexHandle keep) const;
+  void add_points(OpenMesh::FaceHandle f);
+  void pin_again(const std::vector<Candidate>& candidates);
+  std::vector<Candidate> around(OpenMesh::VertexHandle keep) const;
   bool collapse(OpenMesh::VertexHandle gone, OpenMesh::VertexHandle keep, Care care);
   bool is_topology_kept(OpenMesh::HalfedgeHandle h);
   bool is_shape_kept(OpenMesh::HalfedgeHandle h, Care care) const;
@@ -82,7 +114,8 @@ class MeshEmbedding final : public Embedding {
   std::vector<Vec3d> node_normals_;          ///< of the surface
   std::vector<std::vector<Pinned>> pinned_;  ///< in each triangle
   int vertices_;                             ///< of the surface; the first nodes
-  FlatStar star_;                            ///< only during a collapse
+  std::vector<Sample> samples_;
+  FlatStar star_;  ///< only during a collapse
 };
 
 }  // namespace anisomesh::detail

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mesh_embedding.hh"
+#include "numerics/bvh.hh"
 
 namespace anisomesh::detail {
 
@@ -18,15 +19,41 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double least_weight = 0.01;  // what is pinned stays clear of the sides
+constexpr double least_agreement = 0.3;  // cosine of a triangle to the surface at its samples
 
 double cross2(const Vec2d& a, const Vec2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 }  // namespace
 
+// In the middle of each part of a triangle of the surface that the lines leave.
+void MeshEmbedding::add_samples(const SurfaceRef& surface, const Overlay& overlay, const NetworkGraph& network) {
+  std::vector<char> on_curve(at(vertices_), 0);
+  for (const auto& edge : overlay.edges)
+    if (!is_line(edge.kind))
+      for (const int n : edge.node)
+        if (n < vertices_) on_curve[at(n)] = 1;
+  for (size_t t = 0; t < overlay.triangles.size(); ++t) {
+    const FaceHandle face(overlay.faces[t]);
+    const auto corners = surface.corners(face);
+    bool all = true;
+    for (const auto v : corners.vertex) all = all && on_curve[at(v.idx())];
+    if (!all || normals_[t].sqrnorm() == 0) continue;
+    Sample sample;
+    sample.normal = normals_[t];
+    sample.position = Vec3d(0, 0, 0);
+    for (const int n : overlay.triangles[t]) sample.position += network.positions[at(n)] / 3;
+    sample.point.face = face;
+    const Vec3d b = closest_barycentric(sample.position, surface.point(corners.vertex[0]),
+                                        surface.point(corners.vertex[1]), surface.point(corners.vertex[2]));
+    for (size_t k = 0; k < 3; ++k) sample.point.barycentric[k] = b[k];
+    pinned_[t].push_back({vertices_ + static_cast<int>(samples_.size()), Vec3d(1, 1, 1) / 3});
+    samples_.push_back(sample);
+  }
+}
+
 // As a fan around the vertex whose angles are scaled to a full turn, or to half of one on the border.
 void MeshEmbedding::lay_flat(VertexHandle v) {
   star_.ring.clear();
-  star_.points.clear();
   const HalfedgeHandle start =
       mesh_.halfedge_handle(v);  // on the border OpenMesh keeps the border halfedge here
   const Vec3d& centre = mesh_.point(v);
@@ -61,74 +88,15 @@ void MeshEmbedding::lay_flat(VertexHandle v) {
     const double length = (mesh_.point(VertexHandle(star_.ring[i].first)) - centre).norm();
     star_.ring[i].second = length * Vec2d(std::cos(scale * angles[i]), std::sin(scale * angles[i]));
   }
-  const auto place_of = [&](int vertex) {
-    for (const auto& entry : star_.ring)
-      if (entry.first == vertex) return entry.second;
-    return Vec2d(0, 0);
-  };
-  for (const FaceHandle f : faces) {
-    auto& pinned = pinned_[at(f.idx())];
-    if (pinned.empty()) continue;
-    auto c = mesh_.cfv_begin(f);
-    const Vec2d p = place_of(c->idx()), q = place_of((++c)->idx()), r = place_of((++c)->idx());
-    for (const Pinned& x : pinned)
-      star_.points.push_back({x.vertex, x.barycentric[0] * p + x.barycentric[1] * q + x.barycentric[2] * r});
-    pinned.clear();
-  }
+  star_.closed = !open;
+  star_.points.clear();
+  star_.has_samples = false;
+  for (const FaceHandle f : faces) add_points(f);
   if (v.idx() < vertices_ && !open) star_.points.push_back({v.idx(), {0, 0}});
 }
 
-// The triangles around `keep` that took the place of the star hold its points now.
-void MeshEmbedding::pin_again(VertexHandle keep) {
-  if (star_.points.empty()) return;
-  struct Candidate {
-    FaceHandle face;
-    std::array<Vec2d, 3> corner;
-    double area;
-  };
-  std::vector<Candidate> candidates;
-  for (const auto f : mesh_.vf_range(keep)) {
-    Candidate candidate{f, {}, 0};
-    size_t known = 0, k = 0;
-    for (const auto c : mesh_.fv_range(f)) {
-      for (const auto& entry : star_.ring)
-        if (entry.first == c.idx()) {
-          candidate.corner[k] = entry.second;
-          ++known;
-          break;
-        }
-      ++k;
-    }
-    if (known < 3) continue;
-    const auto& c = candidate.corner;
-    candidate.area = cross2(c[1] - c[0], c[2] - c[0]);
-    candidates.push_back(candidate);
-  }
-  for (const FlatStar::Point& x : star_.points) {
-    const Candidate* best = nullptr;
-    Vec3d best_weights(1.0 / 3, 1.0 / 3, 1.0 / 3);
-    double deepest = -std::numeric_limits<double>::infinity();
-    for (const Candidate& candidate : candidates) {
-      const auto& c = candidate.corner;
-      if (!(candidate.area > 0)) continue;
-      const Vec3d w = Vec3d(cross2(c[1] - x.place, c[2] - x.place), cross2(c[2] - x.place, c[0] - x.place),
-                            cross2(c[0] - x.place, c[1] - x.place)) /
-                      candidate.area;
-      const double depth = std::min({w[0], w[1], w[2]});
-      if (depth <= deepest) continue;
-      deepest = depth;
-      best = &candidate;
-      best_weights = w;
-    }
-    if (!best && !candidates.empty()) best = &candidates.front();
-    if (!best) continue;
-    best_weights.maximize(Vec3d(1, 1, 1) * least_weight);
-    pinned_[at(best->face.idx())].push_back({x.vertex, best_weights / (best_weights | Vec3d(1, 1, 1))});
-  }
-}
-
-// What is pinned in the two triangles keeps its place in them laid flat.
-void MeshEmbedding::flip_edge(OpenMesh::EdgeHandle e) {
+// What is pinned in the two triangles at an edge keeps its place in them laid flat.
+void MeshEmbedding::lay_flat(OpenMesh::EdgeHandle e) {
   const auto h = mesh_.halfedge_handle(e, 0), o = mesh_.halfedge_handle(e, 1);
   const VertexHandle a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
   const VertexHandle c = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)),
@@ -140,22 +108,128 @@ void MeshEmbedding::flip_edge(OpenMesh::EdgeHandle e) {
   };
   star_.ring = {{a.idx(), {0, 0}}, {b.idx(), {length, 0}}, {c.idx(), apex(c, 1)}, {d.idx(), apex(d, -1)}};
   star_.points.clear();
-  for (const auto f : {mesh_.face_handle(h), mesh_.face_handle(o)}) {
-    auto& pinned = pinned_[at(f.idx())];
-    Vec2d corner[3];
-    size_t k = 0;
-    for (const auto v : mesh_.fv_range(f)) {
-      for (const auto& entry : star_.ring)
-        if (entry.first == v.idx()) corner[k] = entry.second;
-      ++k;
-    }
-    for (const Pinned& x : pinned)
-      star_.points.push_back({x.vertex, x.barycentric[0] * corner[0] + x.barycentric[1] * corner[1] +
-                                            x.barycentric[2] * corner[2]});
-    pinned.clear();
+  star_.has_samples = false;
+  for (const auto f : {mesh_.face_handle(h), mesh_.face_handle(o)}) add_points(f);
+}
+
+void MeshEmbedding::add_points(FaceHandle f) {
+  const auto& pinned = pinned_[at(f.idx())];
+  if (pinned.empty()) return;
+  std::array<Vec2d, 3> corner;
+  size_t k = 0;
+  for (const auto v : mesh_.fv_range(f)) {
+    corner[k] = {0, 0};  // the vertex that the star is around
+    for (const auto& entry : star_.ring)
+      if (entry.first == v.idx()) corner[k] = entry.second;
+    ++k;
   }
+  for (const Pinned& x : pinned) {
+    star_.points.push_back(
+        {x.vertex, x.barycentric[0] * corner[0] + x.barycentric[1] * corner[1] + x.barycentric[2] * corner[2]});
+    star_.has_samples = star_.has_samples || x.vertex >= vertices_;
+  }
+}
+
+// Those with all corners in the star, laid flat with it.
+std::vector<MeshEmbedding::Candidate> MeshEmbedding::placed(const std::vector<Candidate>& candidates) const {
+  std::vector<Candidate> result;
+  for (Candidate candidate : candidates) {
+    size_t known = 0;
+    for (size_t k = 0; k < 3; ++k)
+      for (const auto& entry : star_.ring)
+        if (entry.first == candidate.node[k]) {
+          candidate.corner[k] = entry.second;
+          ++known;
+          break;
+        }
+    if (known < 3) continue;
+    const auto& c = candidate.corner;
+    candidate.area = cross2(c[1] - c[0], c[2] - c[0]);
+    result.push_back(candidate);
+  }
+  return result;
+}
+
+// The triangle that a point of the star is in, or the nearest to having it.
+MeshEmbedding::Landing MeshEmbedding::land(const FlatStar::Point& x,
+                                           const std::vector<Candidate>& candidates) const {
+  Landing best{candidates.empty() ? nullptr : &candidates.front(), Vec3d(1, 1, 1) / 3};
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (const Candidate& candidate : candidates) {
+    const auto& c = candidate.corner;
+    if (!(candidate.area > 0)) continue;
+    const Vec3d w = Vec3d(cross2(c[1] - x.place, c[2] - x.place), cross2(c[2] - x.place, c[0] - x.place),
+                          cross2(c[0] - x.place, c[1] - x.place)) /
+                    candidate.area;
+    const double depth = std::min({w[0], w[1], w[2]});
+    if (depth <= deepest) continue;
+    deepest = depth;
+    best = {&candidate, w};
+  }
+  best.barycentric.maximize(Vec3d(1, 1, 1) * least_weight);
+  best.barycentric /= best.barycentric | Vec3d(1, 1, 1);
+  return best;
+}
+
+// The lowest cosine of a triangle to the surface at a sample that would lie in it.
+double MeshEmbedding::agreement(const std::vector<Candidate>& candidates) const {
+  const auto flat = placed(candidates);
+  double lowest = 1;
+  for (const FlatStar::Point& x : star_.points) {
+    if (x.vertex < vertices_) continue;
+    const Landing landing = land(x, flat);
+    if (!landing.candidate) continue;
+    const auto& n = landing.candidate->node;
+    const Vec3d &p = mesh_.point(VertexHandle(n[0])), &q = mesh_.point(VertexHandle(n[1])),
+                &r = mesh_.point(VertexHandle(n[2]));
+    const Vec3d normal = cross(q - p, r - p);
+    const double length = normal.norm();
+    const double cosine = length > 0 ? (normal | samples_[at(x.vertex - vertices_)].normal) / length : -1;
+    lowest = std::min(lowest, cosine);
+  }
+  return lowest;
+}
+
+// Whether the triangles that would take the place of the star, if all of it were joined to `keep`, are still
+// along the surface at its samples.
+bool MeshEmbedding::are_samples_kept(VertexHandle keep) const {
+  std::vector<Candidate> fan;
+  const auto& ring = star_.ring;
+  for (size_t i = 0; i + 1 < ring.size() + (star_.closed ? 1 : 0); ++i) {
+    const int a = ring[i].first, b = ring[(i + 1) % ring.size()].first;
+    if (a != keep.idx() && b != keep.idx()) fan.push_back({{keep.idx(), a, b}, FaceHandle()});
+  }
+  return agreement(fan) > least_agreement;
+}
+
+std::vector<MeshEmbedding::Candidate> MeshEmbedding::around(VertexHandle keep) const {
+  std::vector<Candidate> result;
+  for (const auto f : mesh_.vf_range(keep)) {
+    auto c = mesh_.cfv_begin(f);
+    const int p = c->idx(), q = (++c)->idx(), r = (++c)->idx();
+    result.push_back({{p, q, r}, f});
+  }
+  return result;
+}
+
+// The triangles that took the place of the star hold its points now.
+void MeshEmbedding::pin_again(const std::vector<Candidate>& candidates) {
+  if (star_.points.empty()) return;
+  const auto flat = placed(candidates);
+  for (const FlatStar::Point& x : star_.points) {
+    const Landing landing = land(x, flat);
+    if (landing.candidate) pinned_[at(landing.candidate->face.idx())].push_back({x.vertex, landing.barycentric});
+  }
+}
+
+void MeshEmbedding::flip_edge(OpenMesh::EdgeHandle e) {
+  lay_flat(e);
+  const auto h = mesh_.halfedge_handle(e, 0), o = mesh_.halfedge_handle(e, 1);
+  const VertexHandle c = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h));
+  pinned_[at(mesh_.face_handle(h).idx())].clear();
+  pinned_[at(mesh_.face_handle(o).idx())].clear();
   mesh_.flip(e);
-  pin_again(c);
+  pin_again(around(c));
 }
 
 }  // namespace anisomesh::detail

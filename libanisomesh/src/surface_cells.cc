@@ -51,16 +51,22 @@ bool SurfaceCells::is_side(int triangle, size_t k) const {
 void SurfaceCells::add_probes(int triangle, Cell& cell) const {
   const auto& mesh = surface_.connectivity();
   for (const auto& pinned : *triangles_[at(triangle)].pinned) {
+    Probe probe;
+    probe.triangle = static_cast<int>(cell.triangles.size()) - 1;
+    probe.barycentric = pinned.barycentric;
+    if (const auto* sample = embedding_.sample(pinned)) {
+      probe.position = sample->position;
+      probe.point = sample->point;
+      cell.probes.push_back(probe);
+      continue;
+    }
     const OpenMesh::VertexHandle v(pinned.vertex);
     auto h = mesh.halfedge_handle(v);
     if (mesh.is_boundary(h)) h = mesh.opposite_halfedge_handle(h);
-    Probe probe;
     probe.position = surface_.point(v);
     probe.point.face = mesh.face_handle(h);
     const auto corners = surface_.corners(probe.point.face);
     for (size_t k = 0; k < 3; ++k) probe.point.barycentric[k] = corners.vertex[k] == v;
-    probe.triangle = static_cast<int>(cell.triangles.size()) - 1;
-    probe.barycentric = pinned.barycentric;
     cell.probes.push_back(probe);
   }
 }
