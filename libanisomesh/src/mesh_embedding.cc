@@ -20,6 +20,8 @@ constexpr double least_cosine = 0.3;   // to the normal that the triangle had be
 constexpr double turned_cosine = 0.1;  // to the surface: below it a triangle counts as turned over
 constexpr double least_shape = 0.02;   // twice the area over the square of the longest side
 constexpr double least_area = 1e-7;    // likewise, where a triangle must only not be turned over
+constexpr double negligible = 1e-10;   // squared, of the longest side: two nodes in one place but for rounding,
+constexpr double thinner = 0.02;       // which may leave so much of the area
 constexpr double pi = 3.14159265358979323846;
 constexpr int flip_passes = 50;
 constexpr size_t nearest_tried = 6;  // neighbours that a vertex may be moved to, unless nothing else is left
@@ -65,6 +67,7 @@ bool MeshEmbedding::is_topology_kept(HalfedgeHandle h) {
 bool MeshEmbedding::is_shape_kept(HalfedgeHandle h, Care care) const {
   const VertexHandle gone = mesh_.from_vertex_handle(h), keep = mesh_.to_vertex_handle(h);
   const Vec3d& place = mesh_.point(keep);
+  const double moved = (place - mesh_.point(gone)).sqrnorm();
   for (const auto out : mesh_.voh_range(gone)) {
     if (mesh_.is_boundary(out)) continue;
     const VertexHandle a = mesh_.to_vertex_handle(out),
@@ -77,11 +80,9 @@ bool MeshEmbedding::is_shape_kept(HalfedgeHandle h, Care care) const {
     const Vec3d& before = normals_[at(mesh_.face_handle(out).idx())];
     const double cosine = care == Care::shape ? least_cosine : 0.0;
     if (before.sqrnorm() > 0 && !((normal | before) > cosine * length)) return false;
-    if (!(length > least_area * longest)) return false;
-    if (care == Care::shape && length < least_shape * longest) {
-      const Vec3d old = cross(mesh_.point(a) - mesh_.point(gone), mesh_.point(b) - mesh_.point(gone));
-      if (length < old.norm()) return false;  // no worse than it was
-    }
+    const double old = cross(mesh_.point(a) - mesh_.point(gone), mesh_.point(b) - mesh_.point(gone)).norm();
+    if (!(length > least_area * longest) && !(moved < negligible * longest && length > thinner * old)) return false;
+    if (care == Care::shape && length < least_shape * longest && length < old) return false;
   }
   return true;
 }

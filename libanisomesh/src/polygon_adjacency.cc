@@ -65,8 +65,20 @@ void PolygonAdjacency::forbid_other_sides(RegionCorners& corners, const std::vec
         corners.forbid(static_cast<int>(i), static_cast<int>(k));
 }
 
+std::vector<int> PolygonAdjacency::fan(const std::vector<Polygon>& polygons, int polygon, int node) const {
+  std::vector<int> result{polygon};
+  while (true) {
+    const Polygon& last = polygons[at(result.back())];
+    const auto corner = std::find(last.begin(), last.end(), node) - last.begin();
+    const int next = neighbor(result.back(), (static_cast<size_t>(corner) + last.size() - 1) % last.size());
+    if (next == polygon) return result;
+    if (next < 0 || static_cast<int>(result.size()) > faces_at(node)) return {};
+    result.push_back(next);
+  }
+}
+
 RegionCorners PolygonAdjacency::around(const std::vector<Polygon>& polygons, const std::vector<int>& path,
-                                       const NetworkGraph& network) const {
+                                       const NetworkGraph& network, bool may_drop) const {
   Polygon ring = polygons[at(path.front())];
   for (size_t i = 1; i < path.size(); ++i) {
     const Polygon& before = polygons[at(path[i - 1])];
@@ -79,7 +91,19 @@ RegionCorners PolygonAdjacency::around(const std::vector<Polygon>& polygons, con
     for (size_t k = 1; next[(start + k) % next.size()] != b; ++k, ++place)
       ring.insert(ring.begin() + place, next[(start + k) % next.size()]);
   }
+  // Where the last polygon lies beside the first as well, the node they all share is no corner any more.
+  for (size_t i = 0; may_drop && ring.size() > 3 && i < ring.size();) {
+    const size_t n = ring.size(), before = (i + n - 1) % n, after = (i + 1) % n;
+    if (ring[before] != ring[after]) {
+      ++i;
+      continue;
+    }
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(std::max(i, after)));
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(std::min(i, after)));
+    i = 0;
+  }
   RegionCorners corners;
+  if (ring.size() < 3) return corners;
   Polygon sorted = ring;
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return corners;
@@ -102,9 +126,10 @@ std::vector<Polygon> in_corners(const RegionCorners& corners, const std::vector<
   std::vector<Polygon> result;
   for (const int p : path) {
     result.emplace_back();
-    for (const int n : polygons[at(p)])
-      result.back().push_back(
-          static_cast<int>(std::find(corners.node.begin(), corners.node.end(), n) - corners.node.begin()));
+    for (const int n : polygons[at(p)]) {
+      const auto place = std::find(corners.node.begin(), corners.node.end(), n);
+      if (place != corners.node.end()) result.back().push_back(static_cast<int>(place - corners.node.begin()));
+    }
   }
   return result;
 }

@@ -27,10 +27,13 @@ class PolygonAdjacency {
   void count(const std::vector<int>& polygon, int by) {
     for (const int n : polygon) faces_at_[static_cast<size_t>(n)] += by;
   }
+  /// The polygons around one of a polygon's nodes, each beside the one before it; none if a side that may not
+  /// be crossed ends there.
+  std::vector<int> fan(const std::vector<std::vector<int>>& polygons, int polygon, int node) const;
   /// The corners around polygons each of which lies beside the one before it; loop is 0 if they enclose a
-  /// hole or touch themselves.
+  /// hole or touch themselves. \param may_drop the nodes that they enclose
   RegionCorners around(const std::vector<std::vector<int>>& polygons, const std::vector<int>& path,
-                       const NetworkGraph& network) const;
+                       const NetworkGraph& network, bool may_drop = false) const;
 
  private:
   void forbid_other_sides(RegionCorners& corners, const std::vector<std::vector<int>>& polygons,
@@ -42,7 +45,7 @@ class PolygonAdjacency {
   std::vector<int> faces_at_;
 };
 
-/// Polygons with indices into the corners instead of nodes.
+/// Polygons with indices into the corners instead of nodes; nodes that are no corners are left out.
 std::vector<std::vector<int>> in_corners(const RegionCorners& corners,
                                          const std::vector<std::vector<int>>& polygons,
                                          const std::vector<int>& path);

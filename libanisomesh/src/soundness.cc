@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <unordered_set>
 
 #include "anisomesh/errors.hh"
 #include "conforming.hh"
 #include "numerics/bvh.hh"
-#include "polygon_adjacency.hh"
 
 namespace anisomesh::detail {
 
@@ -21,7 +21,9 @@ constexpr double least_area = 1e-5;   // twice the area over the squared diamete
 constexpr double surely_right = 0.3;  // cosine to the surface's normal at all corners: no closer look needed
 constexpr double folded_cosine = -0.985;  // neighbours lie on each other: 170 degrees
 constexpr double reach = 0.5;             // of the diameter: how far away the surface may face the right way
+constexpr double thin_area = 1e-3;        // likewise: more samples would not help such a polygon
 constexpr int max_repairs = 3;            // rounds
+constexpr size_t most_corners = 12;       // of what is cut up anew; twice as many around a vertex that goes
 
 std::vector<Vec3d> positions_of(const Polygon& polygon, const NetworkGraph& network) {
   std::vector<Vec3d> result;
@@ -43,6 +45,11 @@ double diameter_of(const Polygon& polygon, const NetworkGraph& network) {
     for (const int m : polygon)
       squared = std::max(squared, (network.positions[at(n)] - network.positions[at(m)]).sqrnorm());
   return std::sqrt(squared);
+}
+
+bool is_thin(const Polygon& polygon, const NetworkGraph& network) {
+  const double diameter = diameter_of(polygon, network);
+  return !(area_vector(polygon, network).norm() > thin_area * diameter * diameter);
 }
 
 bool is_feature_edge(const NetworkGraph& network, int a, int b) {
@@ -122,6 +129,7 @@ bool Soundness::is_against(const Vec2d& uv, OpenMesh::FaceHandle start, const Ve
   const SurfacePoint below = locator_.locate(uv, place, start);
   const double limit = (position(surface_, below) - place).norm() + reach * diameter;
   std::vector<OpenMesh::FaceHandle> found{below.face};
+  std::unordered_set<int> seen{below.face.idx()};
   double nearest = std::numeric_limits<double>::infinity(), nearest_right = nearest;
   for (size_t i = 0; i < found.size(); ++i) {
     const auto c = surface_.corners(found[i]);
@@ -136,7 +144,7 @@ bool Soundness::is_against(const Vec2d& uv, OpenMesh::FaceHandle start, const Ve
       nearest_right = std::min(nearest_right, distance);
     }
     for (const auto f : mesh.ff_range(found[i]))
-      if (std::find(found.begin(), found.end(), f) == found.end()) found.push_back(f);
+      if (seen.insert(f.idx()).second) found.push_back(f);
   }
   return nearest_right > nearest + reach * diameter;
 }
@@ -198,9 +206,44 @@ std::vector<int> Soundness::unsound(const std::vector<Polygon>& polygons, const 
   return result;
 }
 
-// The cheapest new partition of the polygon with one or two of its neighbours that is sound.
+// Of several sets of polygons the one that can be cut up anew with the least cost, so that all is sound.
+const std::vector<int>* Soundness::cheapest(const std::vector<std::vector<int>>& paths,
+                                            const PolygonAdjacency& adjacency,
+                                            const std::vector<Polygon>& polygons,
+                                            const NetworkGraph& network, int max_degree, bool may_drop,
+                                            std::vector<Polygon>& best_pieces) const {
+  double best = std::numeric_limits<double>::infinity();
+  const std::vector<int>* best_path = nullptr;
+  for (const auto& path : paths) {
+    if (path.empty()) continue;
+    RegionCorners corners = adjacency.around(polygons, path, network, may_drop);
+    if (corners.loop == 0 || corners.loop > (may_drop ? 2 : 1) * most_corners) continue;
+    const auto before = in_corners(corners, polygons, path);
+    size_t kept = 0, all = 0;
+    for (size_t i = 0; i < path.size(); ++i) {
+      kept += before[i].size();
+      all += polygons[at(path[i])].size();
+    }
+    const bool less = kept < all;
+    std::vector<Polygon> pieces = best_partition(corners, judge_, max_degree != 3);
+    double cost = pieces.empty() ? std::numeric_limits<double>::infinity() : judge_.cost(corners, pieces);
+    for (Polygon& piece : pieces) {
+      for (int& i : piece) i = corners.node[at(i)];
+      if (!is_sound(piece, network)) cost = std::numeric_limits<double>::infinity();
+    }
+    cost -= less ? static_cast<double>(path.size()) : judge_.cost(corners, before);
+    if (!(cost < best)) continue;
+    best = cost;
+    best_path = &path;
+    best_pieces = std::move(pieces);
+  }
+  return best_path;
+}
+
+// The cheapest new partition of the polygon with one or two of its neighbours that is sound; where there is
+// none, of all that is around one of its corners, without that.
 bool Soundness::repair_one(int polygon, std::vector<Polygon>& polygons, const NetworkGraph& network,
-                           int max_degree) const {
+                           int max_degree, bool may_drop) const {
   const PolygonAdjacency adjacency(polygons, network.graph.n_nodes(),
                                    [&](int a, int b) { return !is_feature_edge(network, a, b); });
   const auto neighbors = [&](int p) {
@@ -217,23 +260,11 @@ bool Soundness::repair_one(int polygon, std::vector<Polygon>& polygons, const Ne
     for (const int m : neighbors(n))
       if (m != polygon) paths.push_back({polygon, n, m});
   }
-  double best = std::numeric_limits<double>::infinity();
-  const std::vector<int>* best_path = nullptr;
   std::vector<Polygon> best_pieces;
-  for (const auto& path : paths) {
-    RegionCorners corners = adjacency.around(polygons, path, network);
-    if (corners.loop == 0 || corners.loop > 12) continue;
-    std::vector<Polygon> pieces = best_partition(corners, judge_, max_degree != 3);
-    double cost = pieces.empty() ? std::numeric_limits<double>::infinity() : judge_.cost(corners, pieces);
-    for (Polygon& piece : pieces) {
-      for (int& i : piece) i = corners.node[at(i)];
-      if (!is_sound(piece, network)) cost = std::numeric_limits<double>::infinity();
-    }
-    cost -= judge_.cost(corners, in_corners(corners, polygons, path));
-    if (!(cost < best)) continue;
-    best = cost;
-    best_path = &path;
-    best_pieces = std::move(pieces);
+  const std::vector<int>* best_path = cheapest(paths, adjacency, polygons, network, max_degree, false, best_pieces);
+  if (!best_path && (may_drop || is_thin(polygons[at(polygon)], network))) {  // a vertex less
+    for (const int n : polygons[at(polygon)]) paths.push_back(adjacency.fan(polygons, polygon, n));
+    best_path = cheapest(paths, adjacency, polygons, network, max_degree, true, best_pieces);
   }
   if (!best_path) return false;
   for (size_t i = 0; i < best_path->size() || i < best_pieces.size(); ++i) {
@@ -248,7 +279,7 @@ bool Soundness::repair_one(int polygon, std::vector<Polygon>& polygons, const Ne
 }
 
 std::vector<Polygon> Soundness::repair(std::vector<Polygon>& polygons, const NetworkGraph& network,
-                                       int max_degree) const {
+                                       int max_degree, bool may_drop) const {
   std::vector<int> bad = unsound(polygons, network);
   for (int round = 0; round < max_repairs && !bad.empty(); ++round) {
     size_t repaired = 0;
@@ -259,7 +290,8 @@ std::vector<Polygon> Soundness::repair(std::vector<Polygon>& polygons, const Net
     for (const Polygon& p : waiting) {
       const auto place = std::find(polygons.begin(), polygons.end(), p);
       if (place != polygons.end())
-        repaired += repair_one(static_cast<int>(place - polygons.begin()), polygons, network, max_degree);
+        repaired += repair_one(static_cast<int>(place - polygons.begin()), polygons, network, max_degree,
+                               may_drop);
     }
     bad = unsound(polygons, network);
     if (repaired == 0) break;

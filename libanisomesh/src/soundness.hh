@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "network_graph.hh"
+#include "polygon_adjacency.hh"
 #include "polygon_judge.hh"
 
 namespace anisomesh::detail {
@@ -16,8 +17,9 @@ class Soundness {
       : surface_(surface), locator_(locator), judge_(judge), convex_(convex) {}
 
   /// Partitions anew around unsound polygons. \return those that are left
+  /// \param may_drop vertices, too, where nothing else helps; otherwise only of polygons that are very thin
   std::vector<std::vector<int>> repair(std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
-                                       int max_degree) const;
+                                       int max_degree, bool may_drop) const;
   /// \throw CannotProcess if the polygons are not a manifold with the input's Euler characteristic and border
   void require_topology(const std::vector<std::vector<int>>& polygons) const;
 
@@ -27,8 +29,13 @@ class Soundness {
   bool is_against(const Vec2d& uv, OpenMesh::FaceHandle start, const Vec3d& place, const Vec3d& normal,
                   double diameter) const;
   std::vector<int> unsound(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network) const;
+  const std::vector<int>* cheapest(const std::vector<std::vector<int>>& paths,
+                                   const PolygonAdjacency& adjacency,
+                                   const std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
+                                   int max_degree, bool may_drop,
+                                   std::vector<std::vector<int>>& best_pieces) const;
   bool repair_one(int polygon, std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
-                  int max_degree) const;
+                  int max_degree, bool may_drop) const;
 
   const SurfaceRef& surface_;
   const SurfaceLocator& locator_;
