@@ -17,6 +17,8 @@ using OpenMesh::HalfedgeHandle;
 using OpenMesh::TriConnectivity;
 using OpenMesh::VertexHandle;
 
+constexpr double needle = 0.01;    // twice the area over the squared longest side: no thinner
+constexpr int needle_steps = 8;    // from needle to needle
 constexpr double pi = 3.14159265358979323846;
 
 Vec3d area_vector(const SurfaceRef& surface, FaceHandle face) {
@@ -29,12 +31,45 @@ Vec3d area_vector(const SurfaceRef& surface, FaceHandle face) {
 /// no feature.
 double angle_between(const Vec3d& a, const Vec3d& b) { return std::atan2((a % b).norm(), a | b) * 180 / pi; }
 
+/// The halfedge of a face that is its longest side.
+HalfedgeHandle longest_side(const SurfaceRef& surface, FaceHandle face) {
+  const auto& mesh = surface.connectivity();
+  HalfedgeHandle longest;
+  double most = -1;
+  for (const auto h : mesh.fh_range(face)) {
+    const double length =
+        (surface.point(mesh.to_vertex_handle(h)) - surface.point(mesh.from_vertex_handle(h))).sqrnorm();
+    if (length <= most) continue;
+    most = length;
+    longest = h;
+  }
+  return longest;
+}
+
+/// Normal of a face, not of unit length. A needle has none worth the name and lies in the face beyond its
+/// longest side, unless that is as thin and both are a strip.
+Vec3d normal_of(const SurfaceRef& surface, FaceHandle face) {
+  const auto& mesh = surface.connectivity();
+  for (int step = 0; step < needle_steps; ++step) {
+    const Vec3d area = area_vector(surface, face);
+    const HalfedgeHandle side = longest_side(surface, face), beyond = mesh.opposite_halfedge_handle(side);
+    const double squared =
+        (surface.point(mesh.to_vertex_handle(side)) - surface.point(mesh.from_vertex_handle(side))).sqrnorm();
+    if (area.norm() > needle * squared || mesh.is_boundary(beyond)) return area;
+    const FaceHandle next = mesh.face_handle(beyond);
+    if (longest_side(surface, next) == beyond && area_vector(surface, next).norm() <= needle * squared)
+      return area;
+    face = next;
+  }
+  return area_vector(surface, face);
+}
+
 bool exceeds_angle(const SurfaceRef& surface, EdgeHandle edge, double angle_degrees) {
   const auto& mesh = surface.connectivity();
   const auto h = mesh.halfedge_handle(edge, 0), g = mesh.halfedge_handle(edge, 1);
   if (mesh.is_boundary(h) || mesh.is_boundary(g)) return false;
-  const Vec3d first = area_vector(surface, mesh.face_handle(h)).normalize_cond();
-  const Vec3d second = area_vector(surface, mesh.face_handle(g)).normalize_cond();
+  const Vec3d first = normal_of(surface, mesh.face_handle(h)).normalize_cond();
+  const Vec3d second = normal_of(surface, mesh.face_handle(g)).normalize_cond();
   return angle_between(first, second) > angle_degrees;
 }
 

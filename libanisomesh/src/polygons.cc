@@ -99,9 +99,8 @@ Region Extractor::region_of(const Cell& cell, const std::vector<std::array<int, 
     for (const int n : cell.samples) region.corners.add(network_, n);
   region.isotropic = cell.samples.size();
   region.holds_samples = cell.holds_samples;
-  region.may_add =
-      network_.share.empty() || std::all_of(region.corners.node.begin(), region.corners.node.end(),
-                                            [&](int n) { return network_.share[at(n)] > 0.3; });
+  if (!network_.share.empty())
+    for (const int n : region.corners.node) region.share = std::min(region.share, network_.share[at(n)]);
   region.probes = cell.probes;
   set_normal(cell, region.corners.normal);
   if (!network_.planar) {

@@ -17,6 +17,7 @@ size_t at(int i) { return static_cast<size_t>(i); }
 constexpr size_t max_added = 100;      // per region, or as many as it has samples; a bound, not a rule
 constexpr double edge_distance = 0.3;  // of the region's size: nearer to its border a new vertex weighs less
 constexpr int flip_passes = 8;
+constexpr double least_share = 0.1;  // where so little of the tolerances was no help, samples are none either
 
 double turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -29,8 +30,9 @@ class RegionMesher {
         corners_(region.corners),
         judge_(judge),
         options_(options),
-        tolerance_(region.at_feature ? std::min(options.cell_tolerance, options.feature_cell_tolerance)
-                                     : options.cell_tolerance) {}
+        tolerance_(region.share * (region.at_feature
+                                       ? std::min(options.cell_tolerance, options.feature_cell_tolerance)
+                                       : options.cell_tolerance)) {}
 
   RegionPolygons run();
 
@@ -212,7 +214,8 @@ RegionPolygons RegionMesher::run() {
     for (int i = n - static_cast<int>(region_.isotropic); i < n; ++i) triangulation.insert(i);
   if (options_.flip_edges) flip_to_lower_cost(triangulation);
   const size_t most = std::max(max_added, region_.isotropic);
-  while (bounded && region_.may_add && result.added.size() < most && add_worst(triangulation, result))
+  while (bounded && region_.share > least_share && result.added.size() < most &&
+         add_worst(triangulation, result))
     if (options_.flip_edges) flip_to_lower_cost(triangulation);
   result.polygons = pieces_of(triangulation);
   return result;

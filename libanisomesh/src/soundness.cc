@@ -171,6 +171,23 @@ bool Soundness::is_folded(const Polygon& polygon, const NetworkGraph& network, c
   return 2 * against > samples;
 }
 
+// A triangle of the input is as sound as the input is.
+bool Soundness::is_of_input(const Polygon& polygon, const NetworkGraph& network) const {
+  if (polygon.size() != 3) return false;
+  std::array<OpenMesh::VertexHandle, 3> vertex;
+  for (size_t i = 0; i < 3; ++i) {
+    const SurfacePoint& point = network.points[at(polygon[i])];
+    const auto corners = surface_.corners(point.face);
+    for (size_t k = 0; k < 3; ++k)
+      if (point.barycentric[k] == 1) vertex[i] = corners.vertex[k];
+    if (!vertex[i].is_valid()) return false;
+  }
+  const auto& mesh = surface_.connectivity();
+  const auto side = mesh.find_halfedge(vertex[0], vertex[1]);
+  return side.is_valid() && !mesh.is_boundary(side) &&
+         mesh.to_vertex_handle(mesh.next_halfedge_handle(side)) == vertex[2];
+}
+
 bool Soundness::is_sound(const Polygon& polygon, const NetworkGraph& network) const {
   const Vec3d area = area_vector(polygon, network);
   const double diameter = diameter_of(polygon, network), length = area.norm();
@@ -202,7 +219,7 @@ std::vector<int> Soundness::unsound(const std::vector<Polygon>& polygons, const 
     }
   std::vector<int> result;
   for (size_t p = 0; p < polygons.size(); ++p)
-    if (bad[p]) result.push_back(static_cast<int>(p));
+    if (bad[p] && !is_of_input(polygons[p], network)) result.push_back(static_cast<int>(p));
   return result;
 }
 

@@ -24,6 +24,7 @@ class Soundness {
   void require_topology(const std::vector<std::vector<int>>& polygons) const;
 
  private:
+  bool is_of_input(const std::vector<int>& polygon, const NetworkGraph& network) const;
   bool is_sound(const std::vector<int>& polygon, const NetworkGraph& network) const;
   bool is_folded(const std::vector<int>& polygon, const NetworkGraph& network, const Vec3d& normal) const;
   bool is_against(const Vec2d& uv, OpenMesh::FaceHandle start, const Vec3d& place, const Vec3d& normal,
