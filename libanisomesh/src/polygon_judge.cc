@@ -64,6 +64,8 @@ double PolygonJudge::chord_error(const RegionCorners& region, int a, int b) cons
   const SurfacePoint p =
       locator_.locate(0.5 * (region.uv[at(a)] + region.uv[at(b)]), middle, region.face[at(a)], &inside);
   if (!inside) return 0;
+  // A chord across a hole may lie in the plane of what is around the hole.
+  if (region.on_surface) return (position(surface_, p) - middle).norm();
   const auto c = surface_.corners(p.face);
   const Vec3d normal = cross(surface_.point(c.vertex[1]) - surface_.point(c.vertex[0]),
                              surface_.point(c.vertex[2]) - surface_.point(c.vertex[0]));
