@@ -37,12 +37,12 @@ class PlaneDrawing final : public Drawing {
 class SurfaceDrawing final : public Drawing {
  public:
   SurfaceDrawing(const SurfaceRef& surface, const SurfaceNormals& normals, const LineNetwork& lines,
-                 double corner_angle)
-      : surface_(surface), locator_(surface) {
+                 double corner_angle, double tolerance)
+      : surface_(surface), locator_(surface), tolerance_(tolerance) {
     const Overlay overlay = overlay_lines(surface, lines, corner_angle);
     network_ = network_of(surface, normals, overlay);
     embedding_ = std::make_unique<MeshEmbedding>(surface, overlay, network_);
-    embedding_->coarsen(network_);
+    embedding_->coarsen(network_, tolerance);
   }
   const SurfaceLocator& locator() const override { return locator_; }
   const NetworkGraph& network() const override { return network_; }
@@ -50,7 +50,7 @@ class SurfaceDrawing final : public Drawing {
                           DecimationReport& report) const override {
     MeshEmbedding embedding = *embedding_;
     report = decimate(network, embedding, options);
-    embedding.coarsen(network);
+    embedding.coarsen(network, tolerance_);
     embedding.flip(network);
     return surface_cells(network, surface_, embedding, probes);
   }
@@ -58,6 +58,7 @@ class SurfaceDrawing final : public Drawing {
  private:
   const SurfaceRef& surface_;
   NearLocator locator_;
+  double tolerance_;
   NetworkGraph network_;
   std::unique_ptr<MeshEmbedding> embedding_;
 };
@@ -65,10 +66,11 @@ class SurfaceDrawing final : public Drawing {
 }  // namespace
 
 std::unique_ptr<Drawing> make_drawing(const SurfaceRef& surface, const SurfaceNormals& normals,
-                                      const LineNetwork& lines, double corner_angle_degrees) {
+                                      const LineNetwork& lines, double corner_angle_degrees,
+                                      double tolerance) {
   if (has_property(surface.connectivity(), property::uv))
     return std::make_unique<PlaneDrawing>(surface, normals, lines, corner_angle_degrees);
-  return std::make_unique<SurfaceDrawing>(surface, normals, lines, corner_angle_degrees);
+  return std::make_unique<SurfaceDrawing>(surface, normals, lines, corner_angle_degrees, tolerance);
 }
 
 }  // namespace anisomesh::detail

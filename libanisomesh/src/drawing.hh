@@ -20,8 +20,10 @@ class Drawing {
 };
 
 /// Draws the lines, samples, features and the border: in the plane if the surface carries uv.
+/// \param tolerance model units; what is drawn on the surface itself stays so near to it
 /// \throw CannotProcess if the drawing would cross itself
 std::unique_ptr<Drawing> make_drawing(const SurfaceRef& surface, const SurfaceNormals& normals,
-                                      const LineNetwork& lines, double corner_angle_degrees);
+                                      const LineNetwork& lines, double corner_angle_degrees,
+                                      double tolerance);
 
 }  // namespace anisomesh::detail

@@ -17,8 +17,8 @@ using OpenMesh::HalfedgeHandle;
 using OpenMesh::TriConnectivity;
 using OpenMesh::VertexHandle;
 
-constexpr double needle = 0.01;    // twice the area over the squared longest side: no thinner
-constexpr int needle_steps = 8;    // from needle to needle
+constexpr double needle = 0.01;  // twice the area over the squared longest side: no thinner
+constexpr int needle_steps = 8;  // from needle to needle
 constexpr double pi = 3.14159265358979323846;
 
 Vec3d area_vector(const SurfaceRef& surface, FaceHandle face) {

@@ -20,8 +20,9 @@ constexpr double least_cosine = 0.3;   // to the normal that the triangle had be
 constexpr double turned_cosine = 0.1;  // to the surface: below it a triangle counts as turned over
 constexpr double least_shape = 0.02;   // twice the area over the square of the longest side
 constexpr double least_area = 1e-7;    // likewise, where a triangle must only not be turned over
-constexpr double negligible = 1e-10;   // squared, of the longest side: two nodes in one place but for rounding,
-constexpr double thinner = 0.02;       // which may leave so much of the area
+constexpr double negligible =
+    1e-10;                        // squared, of the longest side: two nodes in one place but for rounding,
+constexpr double thinner = 0.02;  // which may leave so much of the area
 constexpr double pi = 3.14159265358979323846;
 constexpr int flip_passes = 50;
 constexpr size_t nearest_tried = 6;  // neighbours that a vertex may be moved to, unless nothing else is left
@@ -44,6 +45,7 @@ MeshEmbedding::MeshEmbedding(const SurfaceRef& surface, const Overlay& overlay, 
     normals_.push_back(length > 0 ? normal / length : normal);
   }
   pinned_.resize(normals_.size());
+  for (const auto v : surface.connectivity().vertices()) surface_points_.push_back(surface.point(v));
   add_samples(surface, overlay, network);
 }
 
@@ -81,7 +83,8 @@ bool MeshEmbedding::is_shape_kept(HalfedgeHandle h, Care care) const {
     const double cosine = care == Care::shape ? least_cosine : 0.0;
     if (before.sqrnorm() > 0 && !((normal | before) > cosine * length)) return false;
     const double old = cross(mesh_.point(a) - mesh_.point(gone), mesh_.point(b) - mesh_.point(gone)).norm();
-    if (!(length > least_area * longest) && !(moved < negligible * longest && length > thinner * old)) return false;
+    if (!(length > least_area * longest) && !(moved < negligible * longest && length > thinner * old))
+      return false;
     if (care == Care::shape && length < least_shape * longest && length < old) return false;
   }
   return true;
@@ -92,7 +95,14 @@ bool MeshEmbedding::collapse(VertexHandle gone, VertexHandle keep, Care care) {
   if (!h.is_valid() || !is_topology_kept(h)) return false;
   if (care != Care::topology && !is_shape_kept(h, care)) return false;
   lay_flat(gone);
-  if (care != Care::topology && star_.has_samples && !are_samples_kept(keep)) return false;
+  if (!is_surface_kept(keep, care)) return false;
+  join(h);
+  return true;
+}
+
+// The star of the vertex that goes is laid flat.
+void MeshEmbedding::join(HalfedgeHandle h) {
+  const VertexHandle gone = mesh_.from_vertex_handle(h), keep = mesh_.to_vertex_handle(h);
   for (const auto f : mesh_.vf_range(gone)) pinned_[at(f.idx())].clear();
   mesh_.collapse(h);
   pin_again(around(keep));
@@ -104,7 +114,6 @@ bool MeshEmbedding::collapse(VertexHandle gone, VertexHandle keep, Care care) {
     const double longest = std::max({(q - p).sqrnorm(), (r - q).sqrnorm(), (p - r).sqrnorm()});
     if (length > 1e-4 * longest) normals_[at(f.idx())] = normal / length;
   }
-  return true;
 }
 
 bool MeshEmbedding::straighten(int a, int node, int b) {
@@ -133,7 +142,10 @@ bool MeshEmbedding::cut_corner(VertexHandle a, VertexHandle node, VertexHandle b
       return false;
     if (!mesh_.find_halfedge(w, a).is_valid()) fan.push_back(w);
   }
-  if (!collapse(node, a, Care::topology)) return false;
+  const HalfedgeHandle away = mesh_.find_halfedge(node, a);
+  if (!away.is_valid() || !is_topology_kept(away)) return false;
+  lay_flat(node);
+  join(away);
   for (bool changed = true; changed;) {
     changed = false;
     for (auto& w : fan) {
@@ -198,7 +210,8 @@ double MeshEmbedding::lowest_cosine(VertexHandle gone, VertexHandle keep) const 
 }
 
 // In passes that leave the neighbours of what went alone, so that the triangles stay of like size.
-void MeshEmbedding::coarsen(const NetworkGraph& network) {
+void MeshEmbedding::coarsen(const NetworkGraph& network, double tolerance) {
+  tolerance_ = tolerance;
   std::vector<int> waiting;
   for (const auto v : mesh_.all_vertices())
     if (!mesh_.status(v).deleted() && !mesh_.is_isolated(v) && network.graph.degree(v.idx()) == 0 &&
@@ -230,6 +243,7 @@ void MeshEmbedding::coarsen(const NetworkGraph& network) {
       if (done) break;
     }
   }
+  tolerance_ = std::numeric_limits<double>::infinity();
 }
 
 void MeshEmbedding::flip(const NetworkGraph& network) {

@@ -3,6 +3,7 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "embedding.hh"
@@ -32,15 +33,15 @@ class MeshEmbedding final : public Embedding {
   void drop(int node) override;
 
   /// Takes out the nodes that no edge of the network leads to and that need not stay, as far as the topology
-  /// allows.
-  void coarsen(const NetworkGraph& network);
+  /// allows and what is pinned stays within the tolerance (model units) of the triangles.
+  void coarsen(const NetworkGraph& network, double tolerance);
 
   /// Flips edges that are not the network's until the triangles are well shaped (Delaunay's rule, over the
   /// two triangles laid flat).
   void flip(const NetworkGraph& network);
 
-  /// A place of the surface inside a triangle that has all corners on features or the border: without it
-  /// nothing but those would know where the surface is, as in the wall of a hole between its rims.
+  /// A place of the surface inside a triangle that has all corners on features or other sharp edges: without
+  /// it nothing but those would know where the surface is, as in the wall of a hole between its rims.
   struct Sample {
     SurfacePoint point;
     Vec3d position;
@@ -94,12 +95,15 @@ class MeshEmbedding final : public Embedding {
   void lay_flat(OpenMesh::EdgeHandle e);
   std::vector<Candidate> placed(const std::vector<Candidate>& candidates) const;
   Landing land(const FlatStar::Point& x, const std::vector<Candidate>& candidates) const;
-  double agreement(const std::vector<Candidate>& candidates) const;
-  bool are_samples_kept(OpenMesh::VertexHandle keep) const;
+  double agreement(const std::vector<Candidate>& candidates, bool vertices) const;
+  std::vector<Candidate> fan_to(OpenMesh::VertexHandle keep) const;
+  bool is_surface_kept(OpenMesh::VertexHandle keep, Care care) const;
+  bool is_near(const std::vector<Candidate>& candidates) const;
   void add_points(OpenMesh::FaceHandle f);
   void pin_again(const std::vector<Candidate>& candidates);
   std::vector<Candidate> around(OpenMesh::VertexHandle keep) const;
   bool collapse(OpenMesh::VertexHandle gone, OpenMesh::VertexHandle keep, Care care);
+  void join(OpenMesh::HalfedgeHandle h);
   bool is_topology_kept(OpenMesh::HalfedgeHandle h);
   bool is_shape_kept(OpenMesh::HalfedgeHandle h, Care care) const;
   double cosine_to_surface(OpenMesh::VertexHandle a, OpenMesh::VertexHandle b,
@@ -115,7 +119,9 @@ class MeshEmbedding final : public Embedding {
   std::vector<std::vector<Pinned>> pinned_;  ///< in each triangle
   int vertices_;                             ///< of the surface; the first nodes
   std::vector<Sample> samples_;
-  FlatStar star_;  ///< only during a collapse
+  std::vector<Vec3d> surface_points_;                           ///< of its vertices
+  double tolerance_ = std::numeric_limits<double>::infinity();  ///< only while coarsening
+  FlatStar star_;                                               ///< only during a collapse
 };
 
 }  // namespace anisomesh::detail

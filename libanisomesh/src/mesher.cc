@@ -51,7 +51,7 @@ MeshOptions resolved(MeshOptions options, const OpenMesh::TriConnectivity& mesh)
 // Polygons that would be folded, concave or without area are given other chances with more samples around
 // them.
 constexpr size_t max_retries = 8;
-constexpr size_t patience = 4;  // retries, before vertices are given up for sound polygons
+constexpr size_t patience = 4;                   // retries, before vertices are given up for sound polygons
 constexpr double feature_cell_tolerance = 2e-3;  // of the diagonal, of cells at features
 constexpr double feature_tolerance = 4e-4;       // of the diagonal, however large epsilon is
 constexpr double tiny = 0.05;                    // of epsilon: no edge need be as short
@@ -118,7 +118,8 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
   const double epsilon = epsilon_of(surface.connectivity());
 
   const detail::SurfaceNormals normals(surface);
-  const auto drawing = detail::make_drawing(surface, normals, lines, options.corner_angle_degrees);
+  const auto drawing = detail::make_drawing(surface, normals, lines, options.corner_angle_degrees,
+                                            options.cell_tolerance * epsilon);
   local.crossings = drawing->network().crossings;
   local.arrangement_seconds = stopwatch.lap();
   report_progress(progress, 0.4);
@@ -162,7 +163,6 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
     const auto unsound = soundness.repair(polygons, network, options.max_degree, local.retries >= patience);
     local.polygon_seconds += stopwatch.lap();
     report_progress(progress, 0.8);
-    if (getenv("DBG")) for (auto& u : unsound) { fprintf(stderr, "retry %zu unsound %zu:", local.retries, u.size()); for (int n : u) fprintf(stderr, " %d[o%d f%d d%d](%.5g %.5g %.5g)", n, (int)network.origins[n], (int)network.fixed[n], network.graph.degree(n), network.positions[n][0], network.positions[n][1], network.positions[n][2]); fprintf(stderr, "\n"); }
     if (unsound.empty()) break;
     ++local.retries;
     if (local.retries > max_retries) refuse(unsound.front(), network, unsound.size());

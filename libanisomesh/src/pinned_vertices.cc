@@ -18,20 +18,26 @@ using OpenMesh::VertexHandle;
 size_t at(int i) { return static_cast<size_t>(i); }
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double least_weight = 0.01;  // what is pinned stays clear of the sides
+constexpr double least_weight = 0.01;    // what is pinned stays clear of the sides
+constexpr double sharp_cosine = 0.9;     // of a face to the normal at its vertex
 constexpr double least_agreement = 0.3;  // cosine of a triangle to the surface at its samples
 
 double cross2(const Vec2d& a, const Vec2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 }  // namespace
 
-// In the middle of each part of a triangle of the surface that the lines leave.
-void MeshEmbedding::add_samples(const SurfaceRef& surface, const Overlay& overlay, const NetworkGraph& network) {
+// In the middle of each part that the lines leave of a triangle of the surface whose corners are all on
+// features, the border or other sharp edges.
+void MeshEmbedding::add_samples(const SurfaceRef& surface, const Overlay& overlay,
+                                const NetworkGraph& network) {
   std::vector<char> on_curve(at(vertices_), 0);
   for (const auto& edge : overlay.edges)
     if (!is_line(edge.kind))
       for (const int n : edge.node)
         if (n < vertices_) on_curve[at(n)] = 1;
+  for (size_t t = 0; t < overlay.triangles.size(); ++t)
+    for (const int n : overlay.triangles[t])
+      if (n < vertices_ && (normals_[t] | node_normals_[at(n)]) < sharp_cosine) on_curve[at(n)] = 1;
   for (size_t t = 0; t < overlay.triangles.size(); ++t) {
     const FaceHandle face(overlay.faces[t]);
     const auto corners = surface.corners(face);
@@ -124,8 +130,8 @@ void MeshEmbedding::add_points(FaceHandle f) {
     ++k;
   }
   for (const Pinned& x : pinned) {
-    star_.points.push_back(
-        {x.vertex, x.barycentric[0] * corner[0] + x.barycentric[1] * corner[1] + x.barycentric[2] * corner[2]});
+    star_.points.push_back({x.vertex, x.barycentric[0] * corner[0] + x.barycentric[1] * corner[1] +
+                                          x.barycentric[2] * corner[2]});
     star_.has_samples = star_.has_samples || x.vertex >= vertices_;
   }
 }
@@ -172,11 +178,12 @@ MeshEmbedding::Landing MeshEmbedding::land(const FlatStar::Point& x,
 }
 
 // The lowest cosine of a triangle to the surface at a sample that would lie in it.
-double MeshEmbedding::agreement(const std::vector<Candidate>& candidates) const {
+double MeshEmbedding::agreement(const std::vector<Candidate>& candidates, bool vertices) const {
   const auto flat = placed(candidates);
   double lowest = 1;
   for (const FlatStar::Point& x : star_.points) {
-    if (x.vertex < vertices_) continue;
+    const bool is_vertex = x.vertex < vertices_;
+    if (is_vertex && !vertices) continue;
     const Landing landing = land(x, flat);
     if (!landing.candidate) continue;
     const auto& n = landing.candidate->node;
@@ -184,22 +191,47 @@ double MeshEmbedding::agreement(const std::vector<Candidate>& candidates) const 
                 &r = mesh_.point(VertexHandle(n[2]));
     const Vec3d normal = cross(q - p, r - p);
     const double length = normal.norm();
-    const double cosine = length > 0 ? (normal | samples_[at(x.vertex - vertices_)].normal) / length : -1;
+    const double cosine = length > 0 ? (normal | (is_vertex ? node_normals_[at(x.vertex)]
+                                                            : samples_[at(x.vertex - vertices_)].normal)) /
+                                           length
+                                     : -1;
     lowest = std::min(lowest, cosine);
   }
   return lowest;
 }
 
-// Whether the triangles that would take the place of the star, if all of it were joined to `keep`, are still
-// along the surface at its samples.
-bool MeshEmbedding::are_samples_kept(VertexHandle keep) const {
+// The triangles that would take the place of the star if all of it were joined to `keep`.
+std::vector<MeshEmbedding::Candidate> MeshEmbedding::fan_to(VertexHandle keep) const {
   std::vector<Candidate> fan;
   const auto& ring = star_.ring;
   for (size_t i = 0; i + 1 < ring.size() + (star_.closed ? 1 : 0); ++i) {
     const int a = ring[i].first, b = ring[(i + 1) % ring.size()].first;
     if (a != keep.idx() && b != keep.idx()) fan.push_back({{keep.idx(), a, b}, FaceHandle()});
   }
-  return agreement(fan) > least_agreement;
+  return fan;
+}
+
+bool MeshEmbedding::is_near(const std::vector<Candidate>& candidates) const {
+  return std::all_of(star_.points.begin(), star_.points.end(), [&](const FlatStar::Point& x) {
+    const Vec3d& p =
+        x.vertex < vertices_ ? surface_points_[at(x.vertex)] : samples_[at(x.vertex - vertices_)].position;
+    return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
+      const auto& n = candidate.node;
+      const Vec3d &a = mesh_.point(VertexHandle(n[0])), &b = mesh_.point(VertexHandle(n[1])),
+                  &c = mesh_.point(VertexHandle(n[2]));
+      const Vec3d w = closest_barycentric(p, a, b, c);
+      return (w[0] * a + w[1] * b + w[2] * c - p).sqrnorm() <= tolerance_ * tolerance_;
+    });
+  });
+}
+
+// Whether the star, all of it joined to `keep`, is still along the surface and near to it.
+bool MeshEmbedding::is_surface_kept(VertexHandle keep, Care care) const {
+  if (!star_.has_samples && care != Care::topology && std::isinf(tolerance_)) return true;
+  const auto fan = fan_to(keep);
+  if (star_.has_samples && care != Care::topology && agreement(fan, false) <= least_agreement) return false;
+  if (care == Care::topology && !(agreement(fan, true) > 0)) return false;
+  return std::isinf(tolerance_) || is_near(fan);
 }
 
 std::vector<MeshEmbedding::Candidate> MeshEmbedding::around(VertexHandle keep) const {
@@ -218,7 +250,8 @@ void MeshEmbedding::pin_again(const std::vector<Candidate>& candidates) {
   const auto flat = placed(candidates);
   for (const FlatStar::Point& x : star_.points) {
     const Landing landing = land(x, flat);
-    if (landing.candidate) pinned_[at(landing.candidate->face.idx())].push_back({x.vertex, landing.barycentric});
+    if (landing.candidate)
+      pinned_[at(landing.candidate->face.idx())].push_back({x.vertex, landing.barycentric});
   }
 }
 

@@ -128,7 +128,8 @@ std::vector<Polygon> in_corners(const RegionCorners& corners, const std::vector<
     result.emplace_back();
     for (const int n : polygons[at(p)]) {
       const auto place = std::find(corners.node.begin(), corners.node.end(), n);
-      if (place != corners.node.end()) result.back().push_back(static_cast<int>(place - corners.node.begin()));
+      if (place != corners.node.end())
+        result.back().push_back(static_cast<int>(place - corners.node.begin()));
     }
   }
   return result;

@@ -29,6 +29,14 @@ struct RegionCorners {
     return std::find(forbidden.begin(), forbidden.end(),
                      std::array<int, 2>{std::min(a, b), std::max(a, b)}) != forbidden.end();
   }
+  /// Whether a chord that bounds the polygon, given by corners, has its edge elsewhere.
+  bool has_forbidden(const std::vector<int>& polygon) const {
+    for (size_t i = 0; i < polygon.size() && !forbidden.empty(); ++i) {
+      const int a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+      if (!is_side(a, b) && !is_side(b, a) && is_forbidden(a, b)) return true;
+    }
+    return false;
+  }
   /// Gives corners on features the normals of the pieces at them, which are on one side: the surface has none
   /// there, and a cell that goes around a hole has none as a whole. \param pieces lists of corners, by index
   template <class Pieces>

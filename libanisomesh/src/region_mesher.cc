@@ -30,9 +30,9 @@ class RegionMesher {
         corners_(region.corners),
         judge_(judge),
         options_(options),
-        tolerance_(region.share * (region.at_feature
-                                       ? std::min(options.cell_tolerance, options.feature_cell_tolerance)
-                                       : options.cell_tolerance)) {}
+        tolerance_(region.at_feature
+                       ? region.share * std::min(options.cell_tolerance, options.feature_cell_tolerance)
+                       : options.cell_tolerance) {}
 
   RegionPolygons run();
 
@@ -41,7 +41,6 @@ class RegionMesher {
   double distance(const Probe& probe, int a, int b, int c) const;
   double distance(const Probe& probe, const std::vector<std::array<int, 3>>& triangles) const;
   std::vector<std::array<int, 3>> as_drawn(const std::vector<Piece>& pieces) const;
-  bool has_forbidden(const std::vector<Piece>& pieces) const;
   bool add_worst(SmallTriangulation& triangulation, RegionPolygons& result);
   double border_distance(const Vec3d& p) const;
   void flip_to_lower_cost(SmallTriangulation& triangulation) const;
@@ -98,17 +97,6 @@ std::vector<std::array<int, 3>> RegionMesher::as_drawn(const std::vector<Piece>&
       triangles.push_back({p[first], p[(first + i) % p.size()], p[(first + i + 1) % p.size()]});
   }
   return triangles;
-}
-
-bool RegionMesher::has_forbidden(const std::vector<Piece>& pieces) const {
-  if (corners_.forbidden.empty()) return false;
-  return std::any_of(pieces.begin(), pieces.end(), [&](const Piece& p) {
-    for (size_t i = 0; i < p.size(); ++i) {
-      const int a = p[i], b = p[(i + 1) % p.size()];
-      if (!corners_.is_side(a, b) && corners_.is_forbidden(a, b)) return true;
-    }
-    return false;
-  });
 }
 
 double RegionMesher::border_distance(const Vec3d& p) const {
@@ -205,7 +193,9 @@ RegionPolygons RegionMesher::run() {
       const auto drawn = as_drawn(result.polygons);
       const bool near = std::all_of(region_.probes.begin(), region_.probes.end(),
                                     [&](const Probe& probe) { return distance(probe, drawn) <= tolerance_; });
-      if (near && !has_forbidden(result.polygons)) return result;
+      const bool taken = std::any_of(result.polygons.begin(), result.polygons.end(),
+                                     [&](const Piece& p) { return corners_.has_forbidden(p); });
+      if (near && !taken) return result;
     }
   }
   SmallTriangulation triangulation(corners_.uv, region_.triangles);

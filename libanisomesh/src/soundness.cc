@@ -226,8 +226,8 @@ std::vector<int> Soundness::unsound(const std::vector<Polygon>& polygons, const 
 // Of several sets of polygons the one that can be cut up anew with the least cost, so that all is sound.
 const std::vector<int>* Soundness::cheapest(const std::vector<std::vector<int>>& paths,
                                             const PolygonAdjacency& adjacency,
-                                            const std::vector<Polygon>& polygons,
-                                            const NetworkGraph& network, int max_degree, bool may_drop,
+                                            const std::vector<Polygon>& polygons, const NetworkGraph& network,
+                                            int max_degree, bool may_drop,
                                             std::vector<Polygon>& best_pieces) const {
   double best = std::numeric_limits<double>::infinity();
   const std::vector<int>* best_path = nullptr;
@@ -245,6 +245,7 @@ const std::vector<int>* Soundness::cheapest(const std::vector<std::vector<int>>&
     std::vector<Polygon> pieces = best_partition(corners, judge_, max_degree != 3);
     double cost = pieces.empty() ? std::numeric_limits<double>::infinity() : judge_.cost(corners, pieces);
     for (Polygon& piece : pieces) {
+      if (corners.has_forbidden(piece)) cost = std::numeric_limits<double>::infinity();
       for (int& i : piece) i = corners.node[at(i)];
       if (!is_sound(piece, network)) cost = std::numeric_limits<double>::infinity();
     }
@@ -278,7 +279,8 @@ bool Soundness::repair_one(int polygon, std::vector<Polygon>& polygons, const Ne
       if (m != polygon) paths.push_back({polygon, n, m});
   }
   std::vector<Polygon> best_pieces;
-  const std::vector<int>* best_path = cheapest(paths, adjacency, polygons, network, max_degree, false, best_pieces);
+  const std::vector<int>* best_path =
+      cheapest(paths, adjacency, polygons, network, max_degree, false, best_pieces);
   if (!best_path && (may_drop || is_thin(polygons[at(polygon)], network))) {  // a vertex less
     for (const int n : polygons[at(polygon)]) paths.push_back(adjacency.fan(polygons, polygon, n));
     best_path = cheapest(paths, adjacency, polygons, network, max_degree, true, best_pieces);
@@ -307,8 +309,8 @@ std::vector<Polygon> Soundness::repair(std::vector<Polygon>& polygons, const Net
     for (const Polygon& p : waiting) {
       const auto place = std::find(polygons.begin(), polygons.end(), p);
       if (place != polygons.end())
-        repaired += repair_one(static_cast<int>(place - polygons.begin()), polygons, network, max_degree,
-                               may_drop);
+        repaired +=
+            repair_one(static_cast<int>(place - polygons.begin()), polygons, network, max_degree, may_drop);
     }
     bad = unsound(polygons, network);
     if (repaired == 0) break;

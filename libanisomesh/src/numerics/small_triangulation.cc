@@ -110,7 +110,15 @@ bool SmallTriangulation::can_flip(int t, size_t k) const {
     return turn(x, y, z) >
            convex_turn * (points_[at(y)] - points_[at(x)]).norm() * (points_[at(z)] - points_[at(x)]).norm();
   };
-  return strict(apex, a, foot) && strict(foot, b, apex);
+  if (!strict(apex, a, foot) || !strict(foot, b, apex)) return false;
+  // An inner corner of three triangles would keep two on each other; only where the drawing is not without
+  // folds does it look as if it could.
+  const int other = neighbors_[at(t)][k];
+  const size_t m = index_of_neighbor(other, t);
+  const auto& n = neighbors_[at(other)];
+  for (const auto& [mine, its] : {std::pair{(k + 1) % 3, (m + 2) % 3}, std::pair{(k + 2) % 3, (m + 1) % 3}})
+    if (neighbors_[at(t)][mine] >= 0 && neighbors_[at(t)][mine] == n[its]) return false;
+  return true;
 }
 
 void SmallTriangulation::flip(int t, size_t k) {
