@@ -48,6 +48,32 @@ Comparison compared(OpenMesh::TriMesh& mesh, OpenMesh::PolyMesh& result) {
   return compare(mesh, result, options);
 }
 
+/// A square plate with a round hole of n sides; no vertex lies inside the hole's wall or the plate's faces.
+OpenMesh::TriMesh plate_with_hole(int n) {
+  OpenMesh::TriMesh mesh;
+  for (const double z : {0.0, 0.6}) {
+    for (const bool outer : {false, true})
+      for (int i = 0; i < n; ++i) {
+        const double angle = 2 * 3.14159265358979323846 * i / n, x = std::cos(angle), y = std::sin(angle);
+        const double scale = outer ? 1 / std::max(std::abs(x), std::abs(y)) : 0.5;
+        mesh.add_vertex({scale * x, scale * y, z});
+      }
+  }
+  const auto quad = [&](int a, int b, int c, int d) {
+    const OpenMesh::VertexHandle p(a), q(b), r(c), s(d);
+    mesh.add_face(p, q, r);
+    mesh.add_face(p, r, s);
+  };
+  for (int i = 0; i < n; ++i) {
+    const int k = (i + 1) % n, top = 2 * n;
+    quad(top + i, top + n + i, top + n + k, top + k);
+    quad(k, n + k, n + i, i);
+    quad(n + i, n + k, top + n + k, top + n + i);
+    quad(k, i, top + i, top + k);
+  }
+  return mesh;
+}
+
 double area(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return 0.5 * cross(b - a, c - a).norm(); }
 
 }  // namespace
@@ -193,6 +219,18 @@ TEST_CASE("real surfaces of every topology keep it") {
     check_sound(c);
     CHECK(c.two_sided.rms < scan.rms);
   }
+}
+
+TEST_CASE("a hole whose wall has no vertices but those of its rims is not bridged") {
+  auto mesh = plate_with_hole(32);
+  RemeshOptions options;
+  options.features.angle_degrees = 40;
+  options.target_faces = 40;  // fewer than the rims alone need
+  auto result = remesh(mesh, options);
+  const auto c = compared(mesh, result);
+  check_sound(c);
+  CHECK(c.euler_characteristic == 0);
+  CHECK(c.two_sided.hausdorff < 0.004);  // of the diagonal; a triangle from rim to rim across it is at 0.02
 }
 
 TEST_CASE(

@@ -107,3 +107,28 @@ TEST_CASE("border edges count as features also without edge status", "[features]
   for (const auto e : mesh.edges()) count += is_feature_or_border(mesh, e);
   CHECK(count == 6);
 }
+
+TEST_CASE("a needle on a flat sheet is no feature, a narrow chamfer is two", "[features]") {
+  OpenMesh::TriMesh sheet;  // the needle stands upright on the line y = 0
+  const auto a = sheet.add_vertex({0, 0, 0}), b = sheet.add_vertex({1, 0, 0}),
+             apex = sheet.add_vertex({0.5, 0, 0.001}), below = sheet.add_vertex({0.5, -1, 0}),
+             above = sheet.add_vertex({0.5, 1, 0});
+  sheet.add_face(a, below, b);
+  sheet.add_face(a, b, apex);
+  sheet.add_face(apex, b, above);
+  sheet.add_face(a, apex, above);
+  FeatureOptions options;
+  options.angle_degrees = 40;
+  CHECK(tag_features(sheet, options).feature_edges == 0);
+
+  const double width = 0.002;
+  OpenMesh::TriMesh chamfer;
+  std::vector<OpenMesh::VertexHandle> v;
+  for (const auto& [y, z] : {std::pair{-1.0, 0.0}, {0.0, 0.0}, {width, -width}, {width, -1.0}})
+    for (const double x : {0.0, 1.0}) v.push_back(chamfer.add_vertex({x, y, z}));
+  for (size_t i = 0; i + 2 < v.size(); i += 2) {
+    chamfer.add_face(v[i], v[i + 1], v[i + 3]);
+    chamfer.add_face(v[i], v[i + 3], v[i + 2]);
+  }
+  CHECK(tag_features(chamfer, options).feature_edges == 2);
+}
