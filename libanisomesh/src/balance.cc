@@ -11,43 +11,16 @@ namespace anisomesh {
 
 namespace {
 
+using detail::PatchChanges;
 using detail::PatchMesh;
 using detail::PatchMove;
 
 constexpr int passes_before = 3, passes_between = 2;
 constexpr double sure = 1.2;  // an exchange must gain this many times what it costs
 
-/// Applies moves as long as none concerns polygons that another has changed.
-class Changes {
- public:
-  Changes(PatchMesh& mesh) : mesh_(mesh), touched_(mesh.polygons().size(), 0) {}
-
-  bool is_open(const PatchMove& move) const {
-    for (const int p : move.patch.polygons)
-      if (touched_[static_cast<size_t>(p)]) return false;
-    return mesh_.may_replace(move.patch, move.pieces);
-  }
-  void apply(const PatchMove& move) {
-    auto pieces = move.pieces;
-    if (move.adds) {
-      const int middle = mesh_.add_vertex(move.place, move.source);
-      for (auto& piece : pieces)
-        for (int& v : piece)
-          if (v < 0) v = middle;
-    }
-    for (const int p : move.patch.polygons) touched_[static_cast<size_t>(p)] = 1;
-    mesh_.replace(move.patch, pieces);
-    touched_.resize(mesh_.polygons().size(), 1);
-  }
-
- private:
-  PatchMesh& mesh_;
-  std::vector<char> touched_;
-};
-
 /// Takes removals and additions in turn, as long as that pays, or the number of vertices is not what it is to
 /// be.
-void exchange(Changes& changes, const std::vector<PatchMove>& removals,
+void exchange(PatchChanges& changes, const std::vector<PatchMove>& removals,
               const std::vector<PatchMove>& additions, long surplus, BalanceReport& report) {
   size_t r = 0, a = 0;
   while (true) {
@@ -107,7 +80,7 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     }
     const detail::PatchMoves moves(surface, input, state, options);
     PatchMesh mesh(work);
-    Changes changes(mesh);
+    PatchChanges changes(mesh);
     const auto removals = moves.removals(mesh), additions = moves.additions(mesh);
     for (const PatchMove& move : moves.repartitions(mesh))
       if (changes.is_open(move)) changes.apply(move), ++report.parted;

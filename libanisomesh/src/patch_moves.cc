@@ -48,7 +48,7 @@ struct PatchMoves::Situation {
   std::vector<PatchSample> samples;
   std::vector<int> numbers;  // of the samples
   std::vector<char> forbidden;
-  double error = 0;
+  double error = 0, worst = 0;
   double costs = 0;  // of what is there
   Vec6d tensor{0, 0, 0, 0, 0, 0};
   bool possible = false;
@@ -64,6 +64,7 @@ PatchMoves::PatchMoves(const SurfaceRef& surface, const FitInput& input, const F
   for (int p = 0; p < mesh.n_polygons(); ++p)
     for (int t = triangles.first[at(p)]; t < triangles.first[at(p) + 1]; ++t) polygon_of[at(t)] = p;
   error_.assign(at(mesh.n_polygons()), 0);
+  worst_.assign(at(mesh.n_polygons()), 0);
   first_sample_.assign(at(mesh.n_polygons()) + 1, 0);
   double total = 0;
   for (size_t i = 0; i < samples.size(); ++i) {
@@ -74,6 +75,11 @@ PatchMoves::PatchMoves(const SurfaceRef& surface, const FitInput& input, const F
     ++first_sample_[at(polygon_of[at(pair.triangle)]) + 1];
     total += error;
   }
+  for (const FitPair& pair : fit.pairs())
+    if (pair.triangle >= 0) {
+      double& worst = worst_[at(polygon_of[at(pair.triangle)])];
+      worst = std::max(worst, pair.distance);
+    }
   for (size_t p = 0; p + 1 < first_sample_.size(); ++p) first_sample_[p + 1] += first_sample_[p];
   sample_.resize(at(first_sample_.back()));
   std::vector<int> next(first_sample_.begin(), first_sample_.end() - 1);
@@ -96,6 +102,7 @@ PatchMoves::Situation PatchMoves::look_at(const PatchMesh& mesh, const PatchMesh
   if (n < 3 || n > most_corners) return s;
   for (const int p : patch.polygons) {
     s.error += error_[at(p)];
+    s.worst = std::max(s.worst, worst_[at(p)]);
     if (mesh.polygons()[at(p)].size() == 3) s.costs += costs_.triangle;
     for (int i = first_sample_[at(p)]; i < first_sample_[at(p) + 1]; ++i) {
       const auto& sample = fit_.matching().samples()[at(sample_[at(i)])];
@@ -117,11 +124,14 @@ PatchMoves::Situation PatchMoves::look_at(const PatchMesh& mesh, const PatchMesh
   return s;
 }
 
-PatchMove PatchMoves::partition(const PatchMesh& mesh, const PatchMesh::Patch& patch) const {
+PatchMove PatchMoves::partition(const PatchMesh& mesh, const PatchMesh::Patch& patch,
+                                bool keeps_vertices) const {
   PatchMove move;
   const Situation s = look_at(mesh, patch);
   if (!s.possible) return move;
-  const PatchView view(s.normal, s.samples, s.tensor, costs_);
+  PatchCosts costs = costs_;
+  if (keeps_vertices) costs.limit = std::max(costs.limit, s.worst);
+  const PatchView view(s.normal, s.samples, s.tensor, costs);
   PatchPieces found = partition_ring(view, s.ring, s.forbidden);
   if (!std::isfinite(found.cost)) return move;
   move.patch = patch;
@@ -138,7 +148,9 @@ PatchMove PatchMoves::addition(const PatchMesh& mesh, const PatchMesh::Patch& pa
   PatchMove move;
   const Situation s = look_at(mesh, patch);
   if (!s.possible || s.samples.empty()) return move;
-  const PatchView view(s.normal, s.samples, s.tensor, costs_);
+  PatchCosts costs = costs_;
+  costs.limit = std::numeric_limits<double>::infinity();
+  const PatchView view(s.normal, s.samples, s.tensor, costs);
   size_t worst = 0;
   double largest = -1;
   for (size_t i = 0; i < s.numbers.size(); ++i) {
@@ -185,7 +197,7 @@ std::vector<PatchMove> PatchMoves::repartitions(const PatchMesh& mesh) const {
   }
   std::vector<PatchMove> moves(groups.size());
   tbb::parallel_for(size_t{0}, groups.size(), [&](size_t i) {
-    PatchMove move = partition(mesh, mesh.join(groups[i]));
+    PatchMove move = partition(mesh, mesh.join(groups[i]), true);
     if (move.gain > 0.05 * mean_error_) moves[i] = std::move(move);
   });
   sort_by_gain(moves);
@@ -221,16 +233,29 @@ std::vector<PatchMove> PatchMoves::removals(const PatchMesh& mesh) const {
   std::vector<PatchMove> moves(static_cast<size_t>(tried_removals * static_cast<double>(n)));
   tbb::parallel_for(size_t{0}, moves.size(), [&](size_t i) {
     const auto& star = stars[at(guesses[i].second)];
-    if (!star.ring.empty()) moves[i] = partition(mesh, star);
+    if (!star.ring.empty()) moves[i] = partition(mesh, star, false);
   });
   sort_by_gain(moves);
   return moves;
 }
 
 std::vector<PatchMove> PatchMoves::additions(const PatchMesh& mesh) const {
+  std::vector<char> wanted;
+  for (const double error : error_) wanted.push_back(error > worth_adding * mean_error_);
+  return additions_to(mesh, wanted, 0);
+}
+
+std::vector<PatchMove> PatchMoves::additions_beyond(const PatchMesh& mesh, double distance) const {
+  std::vector<char> wanted;
+  for (const double worst : worst_) wanted.push_back(worst > distance);
+  return additions_to(mesh, wanted, -std::numeric_limits<double>::infinity());
+}
+
+std::vector<PatchMove> PatchMoves::additions_to(const PatchMesh& mesh, const std::vector<char>& wanted,
+                                                double least_gain) const {
   std::vector<std::vector<int>> groups;
   for (size_t p = 0; p < error_.size(); ++p) {
-    if (!(error_[p] > worth_adding * mean_error_)) continue;
+    if (!wanted[p]) continue;
     const auto& polygon = mesh.polygons()[p];
     groups.push_back({static_cast<int>(p)});
     for (size_t i = 0; i < polygon.size(); ++i) {
@@ -241,7 +266,7 @@ std::vector<PatchMove> PatchMoves::additions(const PatchMesh& mesh) const {
   std::vector<PatchMove> moves(groups.size());
   tbb::parallel_for(size_t{0}, groups.size(), [&](size_t i) {
     PatchMove move = addition(mesh, mesh.join(groups[i]));
-    if (move.gain > 0) moves[i] = std::move(move);
+    if (move.gain > least_gain) moves[i] = std::move(move);
   });
   sort_by_gain(moves);
   return moves;

@@ -24,12 +24,18 @@ class PatchMoves {
   PatchMoves(const SurfaceRef& surface, const FitInput& input, const FitState& fit,
              const BalanceOptions& options);
 
+  /// From now on no move may bring a sample farther than this from its polygon, model units, but for those
+  /// that are farther already and additions.
+  void set_limit(double limit) { costs_.limit = limit; }
+
   /// Moves that keep all vertices, best first.
   std::vector<PatchMove> repartitions(const PatchMesh& mesh) const;
   /// Vertices whose removal costs least, that first.
   std::vector<PatchMove> removals(const PatchMesh& mesh) const;
   /// Vertices to add, best first.
   std::vector<PatchMove> additions(const PatchMesh& mesh) const;
+  /// Vertices to add where a sample is farther than this, best first.
+  std::vector<PatchMove> additions_beyond(const PatchMesh& mesh, double distance) const;
 
   double mean_error() const { return mean_error_; }
 
@@ -37,7 +43,9 @@ class PatchMoves {
   struct Situation;
   Situation look_at(const PatchMesh& mesh, const PatchMesh::Patch& patch) const;
   double guess(const PatchMesh& mesh, const PatchMesh::Patch& star, int vertex) const;
-  PatchMove partition(const PatchMesh& mesh, const PatchMesh::Patch& patch) const;
+  PatchMove partition(const PatchMesh& mesh, const PatchMesh::Patch& patch, bool keeps_vertices) const;
+  std::vector<PatchMove> additions_to(const PatchMesh& mesh, const std::vector<char>& wanted,
+                                      double least_gain) const;
   PatchMove addition(const PatchMesh& mesh, const PatchMesh::Patch& patch) const;
 
   const SurfaceRef& surface_;
@@ -45,8 +53,37 @@ class PatchMoves {
   const FitState& fit_;
   PatchCosts costs_;
   double mean_error_ = 0;
+  std::vector<double> worst_;               // largest distance of a sample on each polygon
   std::vector<double> error_;               // of each polygon
   std::vector<int> first_sample_, sample_;  // of the input, for each polygon
+};
+
+/// Applies moves as long as none concerns polygons that another has changed.
+class PatchChanges {
+ public:
+  explicit PatchChanges(PatchMesh& mesh) : mesh_(mesh), touched_(mesh.polygons().size(), 0) {}
+
+  bool is_open(const PatchMove& move) const {
+    for (const int p : move.patch.polygons)
+      if (touched_[static_cast<size_t>(p)]) return false;
+    return mesh_.may_replace(move.patch, move.pieces);
+  }
+  void apply(const PatchMove& move) {
+    auto pieces = move.pieces;
+    if (move.adds) {
+      const int middle = mesh_.add_vertex(move.place, move.source);
+      for (auto& piece : pieces)
+        for (int& v : piece)
+          if (v < 0) v = middle;
+    }
+    for (const int p : move.patch.polygons) touched_[static_cast<size_t>(p)] = 1;
+    mesh_.replace(move.patch, pieces);
+    touched_.resize(mesh_.polygons().size(), 1);
+  }
+
+ private:
+  PatchMesh& mesh_;
+  std::vector<char> touched_;
 };
 
 }  // namespace anisomesh::detail

@@ -53,6 +53,7 @@ double PatchView::triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) const
     const Place& x = places_[i];
     if (side(p, q, x) < 0 || side(q, r, x) < 0 || side(r, p, x) < 0) continue;
     const double height = ((samples_[i].place - a) | n) / twice;
+    if (std::abs(height) > costs_.limit) return infinite;
     sum += samples_[i].weight * height * height;
   }
   return sum;

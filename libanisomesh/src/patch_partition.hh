@@ -1,6 +1,7 @@
 // The cheapest partition of one patch into triangles and quads, by the error of the samples on it.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "numerics/bvh.hh"
@@ -18,6 +19,8 @@ struct PatchCosts {
   double triangle = 0;  ///< for each triangle
   bool quads = true;    ///< may be made
   double chord = 0;     ///< for a side that lies diagonally to the principal directions, by its length
+  /// No sample may lie farther from its piece, model units.
+  double limit = std::numeric_limits<double>::infinity();
 };
 
 /// A patch seen along its normal: a polygon's error is that of the samples over it.
