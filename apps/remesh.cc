@@ -2,6 +2,7 @@
 #include "anisomesh/remesh.hh"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -25,6 +26,19 @@ void write_page(apps::Command& command, const std::string& page, view::Meshes& m
   command.say(page + ": open it in a browser");
 }
 
+std::string percent(double fraction) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g %%", 100 * fraction);
+  return text;
+}
+
+std::string missed_bound(const anisomesh::RemeshOptions& options, const anisomesh::RemeshReport& report,
+                         bool kept) {
+  return "the result misses --max-error: some point is " + percent(report.max_error.at_least) +
+         " of the diagonal away, and " + percent(options.max_error.max_error_fraction) + " was asked for; " +
+         (kept ? "it was written all the same" : "nothing was written, --keep writes it");
+}
+
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
 }  // namespace
@@ -38,6 +52,7 @@ int main(int argc, char* argv[]) {
   apps::FeatureFlags features;
   apps::EpsilonFlags epsilon;
   anisomesh::RemeshOptions options;
+  bool keep = false;
   command.input(input, "input", "The surface: .obj, .off, .ply, .stl or .om");
   command.output(output,
                  "Where to write the result: .obj, .off, .ply or .om (with the origin of each element)");
@@ -55,6 +70,11 @@ int main(int argc, char* argv[]) {
   apps::add_smoothing_options(command, options.smoothing);
   apps::add_mesh_options(command, options.mesh);
   apps::add_fit_options(command, options.fit, options.balance);
+  apps::add_max_error_option(command, options.max_error);
+  command.arguments()
+      .add_flag("--keep", keep,
+                "Write the result also where it misses --max-error; the exit code is 4 all the same")
+      ->group("Fit");
 
   return command.run(argc, argv, [&] {
     options.trace.density.epsilon_fraction = epsilon.epsilon;
@@ -70,7 +90,10 @@ int main(int argc, char* argv[]) {
     anisomesh::RemeshReport report;
     auto result = anisomesh::remesh(surface, options, &report, command.progress("remeshing"));
     command.stop_if_cancelled();
-    anisomesh::write_mesh(result, output);
+    const bool bounded = options.max_error.max_error_fraction > 0;
+    const bool missed = bounded && !report.max_error.met;
+    if (missed) command.fail_at_end(missed_bound(options, report, keep));
+    if (!missed || keep) anisomesh::write_mesh(result, output);
 
     command.report()["features"] = apps::to_json(report.features);
     command.report()["curvature"] = apps::to_json(report.curvature);
@@ -78,9 +101,15 @@ int main(int argc, char* argv[]) {
     command.report()["smoothing"] = apps::to_json(report.smoothing);
     command.report()["umbilics"] = apps::to_json(report.umbilics);
     apps::add_json(command.report(), report);
-    if (options.fit.enabled) command.report()["fit"] = apps::to_json(report.balance);
+    if (bounded) command.report()["max_error"] = apps::to_json(report.max_error);
+    if (bounded || options.fit.enabled) command.report()["fit"] = apps::to_json(report.balance);
     command.report()["result"] = apps::mesh_json(result);
     command.report()["output"] = output;
+    if (missed && !keep) return;
+    if (bounded && !missed)
+      command.say("no point of either surface is farther from the other than " +
+                  percent(options.max_error.max_error_fraction) + " of the diagonal; some are as far as " +
+                  percent(report.max_error.at_least));
     command.say(output + ": " + apps::mesh_summary(result));
     command.say("  features " + apps::seconds(report.features.seconds) + ", curvature " +
                 apps::seconds(report.curvature.seconds) +

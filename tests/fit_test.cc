@@ -132,7 +132,7 @@ TEST_CASE("the fit refuses what it was not made for, and a cancel leaves the res
   CHECK(points_of(result) == before);
 }
 
-TEST_CASE("the fit more than halves the error of scans", "[fit]") {
+TEST_CASE("the fit halves the error of scans in six passes", "[fit]") {
   const auto path = demo_mesh("lion-head.off");
   if (!path) {
     std::printf("SKIPPED: lion-head.off is not in the folder ANISOMESH_DATA names\n");
@@ -141,7 +141,9 @@ TEST_CASE("the fit more than halves the error of scans", "[fit]") {
   auto mesh = read_surface(*path);
   auto result = remeshed(mesh, 1000);
   const Comparison before = compare(mesh, result);
-  fit_vertices(mesh, result);
+  FitOptions options;
+  options.passes = 6;  // two more than the default, which balanced results need no more of
+  fit_vertices(mesh, result, options);
   const Comparison after = compare(mesh, result);
   CHECK(after.two_sided.rms < 0.5 * before.two_sided.rms);
   check_sound(after);

@@ -125,7 +125,7 @@ int Command::work_and_report(const std::function<void()>& work) {
         write_text(text, json_path_);
     }
     if (!std::cout.flush()) return fail(exit_bad_input, "the standard output cannot be written");
-    return exit_done;
+    return failure_.empty() ? exit_done : fail(exit_cannot, failure_, true);
   } catch (const Cancelled&) {
     return fail(stop_signal == SIGTERM ? 128 + SIGTERM : exit_cancelled, "cancelled; nothing was written");
   } catch (const InvalidOption& error) {

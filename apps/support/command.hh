@@ -55,6 +55,8 @@ class Command {
   Json options() const;
   /// A line for people: on stdout, unless --quiet or the JSON report goes there.
   void say(const std::string& line) const;
+  /// The work goes on and the report is written, but the exit code is 4, with this line.
+  void fail_at_end(const std::string& message) { failure_ = message; }
   /// A line on stderr, unless --quiet.
   void warn(const std::string& line) const;
   /// What --json writes.
@@ -70,7 +72,7 @@ class Command {
   std::unique_ptr<Json> report_;
   std::string* input_ = nullptr;  ///< the first one: failures of a stage name it
   std::string* output_ = nullptr;
-  std::string json_path_;
+  std::string json_path_, failure_;
   int threads_ = 0;
   bool quiet_ = false;
 };

@@ -199,6 +199,16 @@ void add_fit_options(Command& command, FitOptions& fit, BalanceOptions& balance)
       ->group("Fit");
 }
 
+void add_max_error_option(Command& command, MaxErrorOptions& options) {
+  command.arguments()
+      .add_option(
+          "--max-error", options.max_error_fraction,
+          "With as few vertices as it takes, no point of either surface is farther from the other than "
+          "this fraction of the bounding box diagonal; 0: no bound")
+      ->type_name("E")
+      ->group("Fit");
+}
+
 FeatureOptions resolve(const FeatureFlags& flags, const ReadReport& read) {
   FeatureOptions options;
   options.angle_degrees = flags.angle_degrees;

@@ -37,6 +37,9 @@ void add_mesh_options(Command& command, anisomesh::MeshOptions& options,
 /// --fit and --balance.
 void add_fit_options(Command& command, anisomesh::FitOptions& fit, anisomesh::BalanceOptions& balance);
 
+/// --max-error.
+void add_max_error_option(Command& command, anisomesh::MaxErrorOptions& options);
+
 /// Reads --feature-file; its vertices are those of the file, before anything was dropped on reading.
 /// \throw InvalidInput
 anisomesh::FeatureOptions resolve(const FeatureFlags& flags, const anisomesh::ReadReport& read);

@@ -131,6 +131,15 @@ Json to_json(const BalanceReport& r) {
           {"seconds", r.seconds}};
 }
 
+Json to_json(const MaxErrorReport& r) {
+  return {{"met", r.met},
+          {"how", "all points of both surfaces, by dividing triangles until the bound holds"},
+          {"hausdorff_at_least", r.at_least},
+          {"hausdorff_at_most", r.at_most},
+          {"attempts", r.attempts},
+          {"seconds", r.seconds}};
+}
+
 void add_json(Json& json, const TraceAndMeshReport& r) {
   json["epsilon_fraction"] = r.epsilon_fraction;
   json["attempts"] = r.attempts;

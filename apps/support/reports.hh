@@ -25,6 +25,7 @@ Json to_json(const anisomesh::TraceReport& report);
 Json to_json(const anisomesh::IsotropicReport& report);
 Json to_json(const anisomesh::MeshReport& report);
 Json to_json(const anisomesh::BalanceReport& report);
+Json to_json(const anisomesh::MaxErrorReport& report);
 Json to_json(const anisomesh::Comparison& comparison);
 /// "plane", "charts" or "surface".
 std::string name_of(anisomesh::Domain domain);

@@ -54,7 +54,7 @@ bool is_surely_inside(const FitTriangles& triangles, int t, const Vec3d& barycen
 
 }  // namespace
 
-FitInput::FitInput(const SurfaceRef& surface) {
+FitInput::FitInput(const SurfaceRef& surface) : locator(surface) {
   const auto& mesh = surface.connectivity();
   for (const auto f : mesh.faces()) {
     const Vec3d n = area_vector(surface, f);
@@ -76,7 +76,6 @@ FitMatching::FitMatching(const SurfaceRef& surface, const FitInput& input, const
     : surface_(surface),
       input_(input),
       mesh_(mesh),
-      locator_(surface),
       sources_(sources),
       n_triangles_(triangles.corner.size()) {
   place_samples();
@@ -286,7 +285,7 @@ void FitMatching::match_result(const FitTriangles& triangles, const std::vector<
         const double far = (sample.place - place).sqrnorm();
         if (far < nearest_start) nearest_start = far, start = OpenMesh::FaceHandle(sample.face);
       }
-      const SurfacePoint found = locator_.locate(Vec2d(0, 0), place, start);
+      const SurfacePoint found = input_.locator.locate(Vec2d(0, 0), place, start);
       const Vec3d away = position(surface_, found) - place;
       FitPair& pair = pairs_[index++];
       pair.triangle = static_cast<int>(t);

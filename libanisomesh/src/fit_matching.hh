@@ -15,6 +15,7 @@ struct FitInput {
   explicit FitInput(const SurfaceRef& surface);
   std::vector<Vec3d> normal;  ///< unit; zero without area
   std::vector<double> area;
+  NearLocator locator;
   std::vector<Vec6d> tensor;  ///< of curvature, mean of the corners'; empty where none was estimated
 };
 
@@ -65,7 +66,6 @@ class FitMatching {
   const SurfaceRef& surface_;
   const FitInput& input_;
   const FitMesh& mesh_;
-  NearLocator locator_;
   std::vector<OpenMesh::FaceHandle> sources_;
   std::vector<Sample> samples_;
   std::vector<int> first_sample_;  // of each face

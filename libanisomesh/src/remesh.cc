@@ -1,5 +1,6 @@
 #include "anisomesh/remesh.hh"
 
+#include <algorithm>
 #include <chrono>
 
 namespace anisomesh {
@@ -13,7 +14,50 @@ void RemeshOptions::validate() const {
   mesh.validate();
   fit.validate();
   balance.validate();
+  max_error.validate();
+  if (max_error.max_error_fraction > 0 && (target_faces > 0 || target_vertices > 0))
+    throw InvalidOption("a bound on the error and a target exclude each other: give one");
 }
+
+namespace {
+
+/// What buys most, as for a target: lines leave wide gaps alone, samples go where the surface is farthest.
+constexpr double bound_seed_fraction = 0.8, bound_cell_tolerance = 4;
+
+/// Traces for epsilons that begin with the bound itself, until a result meets it.
+OpenMesh::PolyMesh remesh_within(const SurfaceRef& surface, const RemeshOptions& options,
+                                 const BalanceOptions& balance, RemeshReport& done,
+                                 const Progress& progress) {
+  TraceOptions trace = options.trace;
+  MeshOptions mesh = options.mesh;
+  trace.density.epsilon_fraction = options.max_error.max_error_fraction;
+  if (trace.seed_fraction == 0) trace.seed_fraction = std::max(trace.stop_fraction, bound_seed_fraction);
+  if (mesh.cell_tolerance == 0) mesh.cell_tolerance = bound_cell_tolerance;
+  OpenMesh::PolyMesh best;
+  const double count = options.max_error.max_attempts;
+  for (int attempt = 1; attempt <= options.max_error.max_attempts; ++attempt) {
+    TraceAndMeshReport traced;
+    OpenMesh::PolyMesh result =
+        trace_and_mesh(surface, trace, mesh, {}, &traced,
+                       sub_progress(progress, (attempt - 1) / count, (attempt - 0.7) / count));
+    const MaxErrorReport bound =
+        bound_error(surface, result, options.max_error, balance, options.fit,
+                    sub_progress(progress, (attempt - 0.7) / count, attempt / count));
+    if (attempt == 1 || bound.met || bound.at_least < done.max_error.at_least) {
+      static_cast<TraceAndMeshReport&>(done) = traced;
+      done.max_error = bound;
+      best = std::move(result);
+    }
+    done.max_error.attempts = attempt;
+    if (bound.met) break;
+    trace.density.epsilon_fraction /= 2;
+  }
+  done.balance = done.max_error.balance;
+  done.fit = done.balance.fit;
+  return best;
+}
+
+}  // namespace
 
 OpenMesh::PolyMesh remesh(const SurfaceRef& surface, const RemeshOptions& options, RemeshReport* report,
                           const Progress& progress) {
@@ -27,12 +71,16 @@ OpenMesh::PolyMesh remesh(const SurfaceRef& surface, const RemeshOptions& option
   done.smoothing = smooth_tensors(surface, options.smoothing, sub_progress(progress, 0.3, 0.4));
   report_progress(progress, 0.4);
   done.umbilics = find_umbilics(surface);
-  OpenMesh::PolyMesh result = trace_and_mesh(surface, options.trace, options.mesh, options, &done,
-                                             sub_progress(progress, 0.4, options.fit.enabled ? 0.8 : 1));
-  if (options.fit.enabled) {
-    BalanceOptions balance = options.balance;
-    balance.max_degree = options.mesh.max_degree;
-    done.balance = balance_vertices(surface, result, balance, options.fit, sub_progress(progress, 0.8, 1));
+  BalanceOptions balance = options.balance;
+  balance.max_degree = options.mesh.max_degree;
+  OpenMesh::PolyMesh result;
+  if (options.max_error.max_error_fraction > 0) {
+    result = remesh_within(surface, options, balance, done, sub_progress(progress, 0.4, 1));
+  } else {
+    result = trace_and_mesh(surface, options.trace, options.mesh, options, &done,
+                            sub_progress(progress, 0.4, options.fit.enabled ? 0.8 : 1));
+    if (options.fit.enabled)
+      done.balance = balance_vertices(surface, result, balance, options.fit, sub_progress(progress, 0.8, 1));
     done.fit = done.balance.fit;
   }
   done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -10,6 +10,7 @@
 #include "anisomesh/features.hh"
 #include "anisomesh/fit.hh"
 #include "anisomesh/lines.hh"
+#include "anisomesh/max_error.hh"
 #include "anisomesh/mesher.hh"
 #include "anisomesh/smoothing.hh"
 #include "anisomesh/umbilics.hh"
@@ -32,8 +33,9 @@ struct RemeshOptions : TargetOptions {
   TraceOptions trace;  ///< trace.density.epsilon_fraction is ignored where a target is given
   MeshOptions mesh;
   FitOptions fit;
-  BalanceOptions balance;  ///< max_degree is that of `mesh`; only where fit.enabled
-  void validate() const;   ///< \throw InvalidOption
+  MaxErrorOptions max_error;  ///< a bound instead of a target: fits, whatever fit.enabled says
+  BalanceOptions balance;     ///< max_degree is that of `mesh`; only where fit.enabled
+  void validate() const;      ///< \throw InvalidOption
 };
 
 /// One go at a target.
@@ -60,8 +62,9 @@ struct RemeshReport : TraceAndMeshReport {
   DomainReport domain;
   SmoothingReport smoothing;
   UmbilicReport umbilics;
-  FitReport fit;          ///< all 0 unless FitOptions::enabled
-  BalanceReport balance;  ///< the same
+  FitReport fit;             ///< all 0 unless FitOptions::enabled
+  MaxErrorReport max_error;  ///< all 0 without a bound
+  BalanceReport balance;     ///< the same
   double seconds = 0;
 };
 
