@@ -31,6 +31,7 @@ const std::vector<Layer>& layers() {
       {"triangles", "the input's edges", Needs::surface, nullptr, nullptr},
       {"border", "the input's border", Needs::surface, nullptr, nullptr},
       {"features", "feature edges", Needs::surface, nullptr, nullptr},
+      {"seams", "edges between charts", Needs::surface, property::chart_uv.name, flatten},
       {"crosses", "principal directions, scaled by curvature", Needs::surface, property::gamma_min.name,
        estimate},
       {"smoothed-crosses", "the same of the smoothed tensors", Needs::surface, property::tensor2d.name,

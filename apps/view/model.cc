@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "anisomesh/charts.hh"
 #include "anisomesh/features.hh"
 #include "anisomesh/lines.hh"
 #include "anisomesh/properties.hh"
@@ -206,6 +207,9 @@ Model surface_model(const std::string& name, const SurfaceRef& surface, const Fr
   model.sections["features"] = section(
       edges_where(mesh, [&](EdgeHandle e) { return is_feature_or_border(mesh, e) && !mesh.is_boundary(e); }),
       3);
+  if (has_charts(surface))
+    model.sections["seams"] =
+        section(edges_where(mesh, [&](EdgeHandle e) { return is_seam(surface, e); }), 3);
   OpenMesh::MPropHandleT<double> epsilon;
   if (mesh.get_property_handle(epsilon, property::epsilon.name))
     model.numbers["epsilon"] = mesh.property(epsilon);

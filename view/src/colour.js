@@ -13,6 +13,7 @@ export const colours = {
   max: '#d62728',
   feature: '#1a9850',
   border: '#000000',
+  seam: '#8c510a',
   triangles: '#9aa0a8',
   wedge: '#ffb000',
   trisector: '#9b30d9',

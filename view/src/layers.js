@@ -175,6 +175,15 @@ export const layers = [
     swatch: [['features', colours.feature]],
   },
   {
+    name: 'seams',
+    group: 'On the input',
+    label: 'seams of charts',
+    of: 'surface',
+    available: has('seams'),
+    draw: drawEdges('seams', colours.seam, 3),
+    swatch: [['seams', colours.seam]],
+  },
+  {
     name: 'crosses',
     group: 'On the input',
     label: 'principal directions',
