@@ -1,6 +1,7 @@
 // Every mesh of libcgal-demo, of any topology: remeshed, compared, judged, or refused with a reason.
 //
-//   ANISOMESH_DATA=FOLDER any_surface [--target FACES] [--feature-angle DEGREES] [--domain auto|surface]
+//   ANISOMESH_DATA=FOLDER any_surface [--target FACES] [--feature-angle DEGREES] [--domain
+//   auto|surface|charts]
 //                                     [--largest TRIANGLES] [NAME...]
 //
 // Prints a markdown table, a row for each mesh, smallest first; the target is at most half the triangles of
@@ -34,6 +35,10 @@ struct Settings {
   double feature_angle = 0;
   Domain domain = Domain::automatic;
 };
+
+Domain domain_named(const std::string& name) {
+  return name == "surface" ? Domain::surface : name == "charts" ? Domain::charts : Domain::automatic;
+}
 
 double distance_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
   const Vec3d along = b - a;
@@ -141,7 +146,7 @@ int main(int argc, char** argv) {
     else if (more && std::strcmp(argv[i], "--largest") == 0)
       settings.largest = std::stoul(argv[++i]);
     else if (more && std::strcmp(argv[i], "--domain") == 0)
-      settings.domain = std::strcmp(argv[++i], "surface") == 0 ? Domain::surface : Domain::automatic;
+      settings.domain = domain_named(argv[++i]);
     else
       names.emplace_back(argv[i]);
   }

@@ -107,6 +107,10 @@ RegionCorners PolygonAdjacency::around(const std::vector<Polygon>& polygons, con
   Polygon sorted = ring;
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return corners;
+  // Polygons that lie on each other leave corners out.
+  for (const int p : path)
+    for (const int n : polygons[at(p)])
+      if (!std::binary_search(sorted.begin(), sorted.end(), n)) return corners;
   for (const int n : ring) corners.add(network, n);
   corners.loop = ring.size();
   for (size_t i = 1; i + 1 < ring.size(); ++i)
