@@ -60,7 +60,7 @@ void Splitter::link() {
   links_.resize(3 * faces_.size());
   for (size_t k = 0; k < faces_.size(); ++k)
     for (int i = 0; i < 3; ++i) {
-      const auto side = static_cast<size_t>(3 * faces_[k] + i);
+      const auto side = 3 * static_cast<size_t>(faces_[k]) + static_cast<size_t>(i);
       const int twin = sides_.twin[side];
       if (twin < 0 || sides_.feature[side]) continue;
       const int other = place_among(faces_, twin / 3);
@@ -151,7 +151,7 @@ std::vector<Region> connected_regions(const FaceSides& sides, const std::vector<
       open.pop_back();
       region.faces.push_back(faces[k]);
       for (int i = 0; i < 3; ++i) {
-        const auto side = static_cast<size_t>(3 * faces[k] + i);
+        const auto side = 3 * static_cast<size_t>(faces[k]) + static_cast<size_t>(i);
         if (sides.twin[side] < 0 || sides.feature[side]) continue;
         const int other = place_among(faces, sides.twin[side] / 3);
         if (other < 0 || seen[static_cast<size_t>(other)]) continue;

@@ -33,7 +33,9 @@ class HoleTriangulation {
   }
 
  private:
-  size_t at(int i, int k) const { return static_cast<size_t>(i * size_ + k); }
+  size_t at(int i, int k) const {
+    return static_cast<size_t>(i) * static_cast<size_t>(size_) + static_cast<size_t>(k);
+  }
   const Vec3d& corner(int i) const { return rim_.corner[static_cast<size_t>(i)]; }
 
   // The best triangle at the chord from i to k, over what is best on its other two sides.
