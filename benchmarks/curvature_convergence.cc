@@ -12,7 +12,8 @@ using namespace anisomesh;
 namespace {
 
 void print_errors(double noise, double radius, const std::vector<int>& sizes) {
-  std::printf("\nnoise %.2f %%, radius %.0f %% of the diagonal\n", 100 * noise, 100 * radius);
+  std::printf("\nnoise %.2f %%, radius %.0f %% of the diagonal%s\n", 100 * noise, 100 * radius,
+              radius == 0 ? ": chosen by the noise" : "");
   std::printf("%-12s %-6s %-10s %8s | %10s %10s %10s | %10s %10s | %8s\n", "surface", "est", "sampling",
               "vertices", "direction", "curvature", "worst", "dir border", "k border", "order k");
   for (const auto estimator :
@@ -80,6 +81,7 @@ int main(int argc, char** argv) {
     print_errors(0, 0.01, sizes);
     print_errors(0.001, 0.01, sizes);
     print_errors(0.001, 0.05, sizes);  // what a noisy scan asks for
+    print_errors(0.001, 0, sizes);     // chosen by the noise
   }
   if (!asked("--errors")) print_times();
 }

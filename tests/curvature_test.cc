@@ -386,9 +386,46 @@ TEST_CASE("a cancelled estimate leaves the mesh as it was", "[curvature]") {
   CHECK(last >= 0.4);
 }
 
+TEST_CASE("an automatic radius finds curvature under noise, and leaves clean surfaces and scans alone",
+          "[curvature]") {
+  CurvatureOptions automatic;
+  automatic.radius_fraction = 0;
+  for (const auto& form : shapes::curved()) {
+    INFO(form.name);
+    auto noisy = shapes::sample(form, 20000, true, 0.001);
+    const auto report = estimate_curvature(noisy.mesh, automatic);
+    CHECK(report.normal_fraction > 0);
+    const auto e = shapes::curvature_error(noisy);
+    CHECK(e.direction_degrees < 5);
+    CHECK(e.curvature < 0.08);
+    CHECK(e.border_curvature < 0.2);  // in balls of 1 % all of them are some ten times as large
+
+    auto clean = shapes::sample(form, 5000, true), same = clean;
+    const auto untouched = estimate_curvature(clean.mesh, automatic);
+    estimate_curvature(same.mesh);
+    CHECK(untouched.normal_fraction == 0);
+    CHECK(read_field(clean.mesh).tensor == read_field(same.mesh).tensor);
+  }
+  for (const char* name : {"lion-head.off", "mannequin-devil.off"})
+    if (const auto path = demo_mesh(name)) {
+      auto mesh = read_surface(*path);
+      CHECK(estimate_curvature(mesh, automatic).normal_fraction == 0);
+    }
+}
+
+TEST_CASE("the choice by noise does not change with scale", "[curvature]") {
+  auto mesh = shapes::sample(shapes::torus(), 5000, true, 0.001).mesh, large = mesh;
+  for (const auto v : large.vertices()) large.set_point(v, 0x1p20 * large.point(v));
+  CurvatureOptions automatic;
+  automatic.radius_fraction = 0;
+  const auto here = estimate_curvature(mesh, automatic), there = estimate_curvature(large, automatic);
+  CHECK(here.noise == Approx(there.noise));
+  CHECK(here.radius * 0x1p20 == Approx(there.radius));
+}
+
 TEST_CASE("a radius that is none is refused", "[curvature]") {
   auto sampled = shapes::sample(shapes::saddle(), 100);
-  for (const double radius : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double radius : {-0.01, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
     CurvatureOptions options;
     options.radius_fraction = radius;
     CHECK_THROWS_AS(estimate_curvature(sampled.mesh, options), InvalidOption);

@@ -60,7 +60,10 @@ void add_curvature_options(Command& command, CurvatureOptions& options) {
                                   {"corrected-normal-current", CurvatureEstimator::corrected_normal_current}},
                                  "How curvature is measured", "Curvature");
   app.add_option("--radius", options.radius_fraction,
-                 "Radius of the ball that curvature is measured in, fraction of the bounding box diagonal")
+                 "Radius of the ball that curvature is measured in, fraction of the bounding box diagonal; "
+                 "auto: 0.01, and "
+                 "larger with smoother normals where the surface is noisy")
+      ->transform(CLI::Transformer(std::map<std::string, double>{{"auto", 0.0}}))
       ->type_name("R")
       ->group("Curvature");
 }

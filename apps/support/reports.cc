@@ -34,6 +34,8 @@ Json to_json(const FeatureReport& r) {
 
 Json to_json(const CurvatureReport& r) {
   return {{"radius", r.radius},
+          {"normal_fraction", r.normal_fraction},
+          {"noise", r.noise},
           {"enlarged_balls", r.enlarged_balls},
           {"degenerate_faces", r.degenerate_faces},
           {"seconds", r.seconds}};

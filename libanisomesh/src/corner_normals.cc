@@ -28,12 +28,31 @@ Vec3d area_vector(const SurfaceArrays& surface, int face) {
   return vector.norm() > degenerate_height * longest ? vector : Vec3d(0, 0, 0);
 }
 
-CornerNormals::CornerNormals(const SurfaceArrays& surface)
+CornerNormals::CornerNormals(const SurfaceArrays& surface, int passes)
     : surface_(surface), sector_(static_cast<size_t>(surface.n_faces())) {
   find_sectors();
   average_faces();
-  correct_walls();
+  if (passes > 0)
+    smooth(passes);
+  else
+    correct_walls();
   average_sectors();
+}
+
+void CornerNormals::smooth(int passes) {
+  std::vector<double> areas;
+  for (int face = 0; face < surface_.n_faces(); ++face) areas.push_back(area_vector(surface_, face).norm());
+  std::vector<Vec3d> next(normals_.size());
+  for (int pass = 0; pass < passes; ++pass) {
+    std::fill(next.begin(), next.end(), Vec3d(0, 0, 0));
+    for (size_t face = 0; face < areas.size(); ++face) {
+      Vec3d sum(0, 0, 0);
+      for (const int s : sector_[face]) sum += normals_[static_cast<size_t>(s)];
+      for (const int s : sector_[face]) next[static_cast<size_t>(s)] += areas[face] * sum;
+    }
+    for (size_t s = 0; s < next.size(); ++s)
+      if (next[s].sqrnorm() > 0) normals_[s] = next[s].normalized();
+  }
 }
 
 void CornerNormals::find_sectors() {

@@ -15,7 +15,10 @@ Vec3d area_vector(const SurfaceArrays& surface, int face);
 /// corners in a sector share one normal.
 class CornerNormals {
  public:
-  explicit CornerNormals(const SurfaceArrays& surface);
+  /// \param passes of averaging with the corners around, on the same side of walls. With them normals at
+  /// walls stay those of the faces on their side: what would correct them leans on single edges, which noise
+  /// has tilted.
+  explicit CornerNormals(const SurfaceArrays& surface, int passes = 0);
 
   /// Unit, or (0, 0, 0) if no face of the sector has an area.
   const Vec3d& at(int face, int corner) const {
@@ -27,6 +30,7 @@ class CornerNormals {
  private:
   void find_sectors();
   void average_faces();
+  void smooth(int passes);
   void correct_walls();
   void average_sectors();
   /// The faces of a sector.

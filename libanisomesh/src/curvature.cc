@@ -14,6 +14,7 @@
 #include "ball_centres.hh"
 #include "ball_flood.hh"
 #include "curvature_measures.hh"
+#include "noise.hh"
 #include "numerics/tensor2d.hh"
 
 namespace anisomesh {
@@ -75,7 +76,9 @@ class Estimation {
  public:
   Estimation(const SurfaceRef& surface, const CurvatureOptions& options)
       : arrays_(surface),
-        normals_(arrays_),
+        normals_(arrays_,
+                 detail::smoothing_passes(
+                     arrays_, options.normal_fraction * options.radius_fraction * surface.diagonal())),
         measures_(arrays_, normals_, options.estimator),
         base_radius_(options.radius_fraction * surface.diagonal()),
         radii_(static_cast<size_t>(arrays_.n_vertices())),
@@ -231,21 +234,31 @@ void write_properties(OpenMesh::TriConnectivity& mesh, const CornerNormals& norm
 }  // namespace
 
 void CurvatureOptions::validate() const {
-  if (!(radius_fraction > 0) || !std::isfinite(radius_fraction))
+  if (!(radius_fraction >= 0) || !std::isfinite(radius_fraction))
     throw InvalidOption("radius_fraction is " + std::to_string(radius_fraction) +
-                        ", must be finite and above 0");
+                        ", must be finite and above 0, or 0 to choose it by the noise");
+  if (!(normal_fraction >= 0 && normal_fraction <= 1))
+    throw InvalidOption("normal_fraction is " + std::to_string(normal_fraction) + ", must be in [0, 1]");
 }
 
-CurvatureReport estimate_curvature(const SurfaceRef& surface, const CurvatureOptions& options,
+CurvatureReport estimate_curvature(const SurfaceRef& surface, const CurvatureOptions& given,
                                    const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  options.validate();
+  given.validate();
   report_progress(progress, 0);
+  CurvatureOptions options = given;
+  CurvatureReport report;
+  if (given.radius_fraction == 0) {
+    const auto choice = detail::choose_by_noise(surface);
+    options.radius_fraction = choice.radius_fraction;
+    options.normal_fraction = choice.normal_fraction;
+    report.noise = choice.noise;
+  }
   Estimation estimation(surface, options);
   report_progress(progress, 0.1);
   estimation.run(progress);
   write_properties(surface.connectivity(), estimation.normals(), estimation.result());
-  CurvatureReport report;
+  report.normal_fraction = options.normal_fraction;
   report.radius = options.radius_fraction * surface.diagonal();
   report.enlarged_balls = estimation.enlarged_balls();
   report.degenerate_faces = estimation.degenerate_faces();

@@ -89,6 +89,7 @@ usage)
   expect 2 "max_degree" anisomesh-remesh dome.off -o x.obj --max-degree 2
   expect 2 "--target" anisomesh-remesh dome.off -o x.obj --target-faces 100 --target-vertices 100
   expect 2 "radius" anisomesh-remesh dome.off -o x.obj --radius=-1
+  anisomesh-estimate -q dome.off -o auto.om --radius auto
   expect 2 "ten" anisomesh-remesh dome.off -o x.obj --smoothing ten
   expect 2 "normal-cycle" anisomesh-remesh dome.off -o x.obj --estimator guess
   expect 2 "octa-flower" anisomesh-shapes nonagon -o x.obj
