@@ -59,11 +59,13 @@ void add_curvature_options(Command& command, CurvatureOptions& options) {
                                  {{"normal-cycle", CurvatureEstimator::normal_cycle},
                                   {"corrected-normal-current", CurvatureEstimator::corrected_normal_current}},
                                  "How curvature is measured", "Curvature");
+  CLI::Transformer automatic(std::map<std::string, double>{{"auto", 0.0}});
+  automatic.description("");  // the option's own says it
   app.add_option("--radius", options.radius_fraction,
                  "Radius of the ball that curvature is measured in, fraction of the bounding box diagonal; "
                  "auto: 0.01, and "
                  "larger with smoother normals where the surface is noisy")
-      ->transform(CLI::Transformer(std::map<std::string, double>{{"auto", 0.0}}))
+      ->transform(automatic)
       ->type_name("R")
       ->group("Curvature");
 }
