@@ -15,7 +15,8 @@ namespace {
 size_t at(int i) { return static_cast<size_t>(i); }
 
 constexpr double input_samples = 12, result_samples = 6;  // for each triangle of the result, at least
-constexpr double inside = 2.5;     // distances: a foot as far from all sides needs no closer look
+constexpr double inside = 2.5;  // distances: a foot as far from all sides needs no closer look
+constexpr double least_cosine = 0.05, near_match = 0.1;
 constexpr int starts = 6;          // places to look from, for a sample of the result
 constexpr int max_divisions = 24;  // of the sides of one triangle
 constexpr double tiny = 1e-9;      // of the diagonal: nearer than this there is no direction
@@ -170,54 +171,78 @@ Vec3d FitMatching::centre_of(OpenMesh::FaceHandle face) const {
   return (surface_.point(c.vertex[0]) + surface_.point(c.vertex[1]) + surface_.point(c.vertex[2])) / 3.0;
 }
 
-// Every face gets a polygon to start from, handed on from face to face from those the vertices lie in: first
-// inner vertices, then those on features, whose source is on one side of them, then across features.
+// Every face gets a polygon to start from, handed on from face to face from those the vertices lie in, the
+// nearest match first: what came around the end of a feature to the wrong side of it is far from its faces,
+// and comes too late. Across a feature the polygons on the other side of it are looked at.
 void FitMatching::flood(const std::vector<OpenMesh::FaceHandle>& sources, const FitTriangles& triangles,
                         const std::vector<Vec3d>& points) {
-  const auto& mesh = surface_.connectivity();
-  std::vector<int> polygon(mesh.n_faces(), -1);
-  std::vector<int> queue;
-  size_t next = 0;
-  const auto settle = [&](OpenMesh::FaceHandle face, int start) {
-    if (start < 0) return;
-    FitPair pair;
-    nearest(centre_of(face), input_.normal[at(face.idx())], triangles, points, start, pair);
-    polygon[at(face.idx())] = start;
-    queue.push_back(face.idx());
-  };
-  const auto spread = [&] {
-    for (; next < queue.size(); ++next) {
-      const OpenMesh::FaceHandle face(queue[next]);
-      for (const auto h : mesh.fh_range(face)) {
-        const auto beside = mesh.face_handle(mesh.opposite_halfedge_handle(h));
-        const bool wall = mesh.has_edge_status() && mesh.status(mesh.edge_handle(h)).feature();
-        if (beside.is_valid() && !wall && polygon[at(beside.idx())] < 0)
-          settle(beside, polygon[at(face.idx())]);
-      }
+  struct Front {
+    double key = 0;
+    int face = -1, polygon = -1;
+    bool operator<(const Front& o) const {  // a heap has the largest on top
+      return key != o.key ? key > o.key : face != o.face ? face > o.face : polygon > o.polygon;
     }
   };
-  std::vector<char> on_curve(at(mesh_.n_vertices), 0);
-  for (const auto& side : mesh_.sides)
-    if (side.on_curve) on_curve[at(side.from)] = on_curve[at(side.to)] = 1;
-  for (const bool curve : {false, true}) {
-    for (int v = 0; v < mesh_.n_vertices; ++v)
-      if ((on_curve[at(v)] != 0) == curve && polygon[at(sources[at(v)].idx())] < 0)
-        settle(sources[at(v)], best_at(&v, &v + 1, sources[at(v)], triangles, points));
-    spread();
-  }
-  for (size_t known = 0; known < queue.size();) {
-    known = queue.size();
-    for (const auto e : mesh.edges())
-      for (const unsigned k : {0U, 1U}) {
-        const auto f = mesh.face_handle(mesh.halfedge_handle(e, k)),
-                   g = mesh.face_handle(mesh.halfedge_handle(e, 1 - k));
-        if (!f.is_valid() || !g.is_valid() || polygon[at(f.idx())] < 0 || polygon[at(g.idx())] >= 0) continue;
-        const int p = polygon[at(f.idx())];
-        settle(g, best_at(mesh_.begin(p), mesh_.end(p), g, triangles, points));
-      }
-    spread();
+  const auto& mesh = surface_.connectivity();
+  std::vector<int> polygon(mesh.n_faces(), -1);
+  std::vector<char> well(mesh.n_faces(), 0);  // waits with a match that is near for its size
+  std::vector<Front> fronts;
+  const auto push = [&](OpenMesh::FaceHandle face, int start) {
+    if (start < 0 || well[at(face.idx())]) return;
+    FitPair pair;
+    const Vec3d& normal = input_.normal[at(face.idx())];
+    if (!nearest(centre_of(face), normal, triangles, points, start, pair)) return;
+    const double cosine = std::max(least_cosine, triangles.normal[at(pair.triangle)] | normal);
+    fronts.push_back({pair.distance / cosine, face.idx(), start});
+    std::push_heap(fronts.begin(), fronts.end());
+    well[at(face.idx())] = pair.distance / cosine < near_match * triangles.radius[at(start)];
+  };
+  for (int v = 0; v < mesh_.n_vertices; ++v)
+    push(sources[at(v)], best_at(&v, &v + 1, sources[at(v)], triangles, points));
+  while (!fronts.empty()) {
+    std::pop_heap(fronts.begin(), fronts.end());
+    const Front front = fronts.back();
+    fronts.pop_back();
+    if (polygon[at(front.face)] >= 0) continue;
+    polygon[at(front.face)] = front.polygon;
+    for (const auto h : mesh.fh_range(OpenMesh::FaceHandle(front.face))) {
+      const auto beside = mesh.face_handle(mesh.opposite_halfedge_handle(h));
+      if (!beside.is_valid() || polygon[at(beside.idx())] >= 0) continue;
+      const bool wall = mesh.has_edge_status() && mesh.status(mesh.edge_handle(h)).feature();
+      push(beside,
+           wall ? best_at(mesh_.begin(front.polygon), mesh_.end(front.polygon), beside, triangles, points)
+                : front.polygon);
+    }
   }
   for (Sample& sample : samples_) sample.polygon = polygon[at(sample.face)];
+  start_in_large_faces(sources, triangles, points);
+}
+
+// Where a face holds many samples and polygons, from its one polygon downhill may end at the rim of a hole
+// between them: each sample also looks from the nearest vertex that comes from its face.
+void FitMatching::start_in_large_faces(const std::vector<OpenMesh::FaceHandle>& sources,
+                                       const FitTriangles& triangles, const std::vector<Vec3d>& points) {
+  std::vector<std::vector<int>> vertices(first_sample_.size() - 1);
+  for (int v = 0; v < mesh_.n_vertices; ++v)
+    if (mesh_.first_polygon[at(v)] < mesh_.first_polygon[at(v) + 1])
+      vertices[at(sources[at(v)].idx())].push_back(v);
+  tbb::parallel_for(size_t{0}, vertices.size(), [&](size_t f) {
+    if (vertices[f].empty() || first_sample_[f + 1] - first_sample_[f] < 2) return;
+    for (int i = first_sample_[f]; i < first_sample_[f + 1]; ++i) {
+      Sample& sample = samples_[at(i)];
+      const int v = *std::min_element(vertices[f].begin(), vertices[f].end(), [&](int a, int b) {
+        return (points[at(a)] - sample.place).sqrnorm() < (points[at(b)] - sample.place).sqrnorm();
+      });
+      int other = best_at(&v, &v + 1, OpenMesh::FaceHandle(sample.face), triangles, points);
+      FitPair from_face, from_vertex;
+      const Vec3d& normal = input_.normal[f];
+      const bool known =
+          sample.polygon >= 0 && nearest(sample.place, normal, triangles, points, sample.polygon, from_face);
+      if (other >= 0 && nearest(sample.place, normal, triangles, points, other, from_vertex) &&
+          (!known || from_vertex.distance < from_face.distance))
+        sample.polygon = other;
+    }
+  });
 }
 
 int FitMatching::polygon_of(int face) const {
@@ -248,6 +273,26 @@ const std::vector<FitPair>& FitMatching::match(const FitTriangles& triangles,
   return pairs_;
 }
 
+// Of the faces that the corners come from and those around them, on whatever side of features.
+OpenMesh::FaceHandle FitMatching::start_without_samples(const Triangle& corner, const Vec3d& normal,
+                                                        const Vec3d& place) const {
+  OpenMesh::FaceHandle best = sources_[at(corner[0])];
+  double least = std::numeric_limits<double>::infinity();
+  for (const int v : corner)
+    for (const auto u : surface_.corners(sources_[at(v)]).vertex)
+      for (const auto f : surface_.connectivity().vf_range(u)) {
+        const double cosine = input_.normal[at(f.idx())] | normal;
+        if (!(cosine > least_cosine)) continue;
+        const auto c = surface_.corners(f);
+        const Vec3d &x = surface_.point(c.vertex[0]), &y = surface_.point(c.vertex[1]),
+                    &z = surface_.point(c.vertex[2]);
+        const Vec3d w = closest_barycentric(place, x, y, z);
+        const double squared = (w[0] * x + w[1] * y + w[2] * z - place).sqrnorm() / (cosine * cosine);
+        if (squared < least) least = squared, best = f;
+      }
+  return best;
+}
+
 void FitMatching::match_result(const FitTriangles& triangles, const std::vector<Vec3d>& points) {
   const size_t n_input = samples_.size();
   const double least = tiny * surface_.diagonal();
@@ -276,8 +321,7 @@ void FitMatching::match_result(const FitTriangles& triangles, const std::vector<
     size_t index = n_input + at(begin[t]);
     for_each_piece(n, [&](const Vec3d& w) {
       const Vec3d place = w[0] * a + w[1] * b + w[2] * c;
-      OpenMesh::FaceHandle start =
-          sources_[at(corner[w[0] > w[1] ? (w[0] > w[2] ? 0 : 2) : (w[1] > w[2] ? 1 : 2)])];
+      OpenMesh::FaceHandle start;
       double nearest_start = std::numeric_limits<double>::infinity();
       const int stride = std::max(1, (first[t + 1] - first[t]) / starts);
       for (int i = first[t]; i < first[t + 1]; i += stride) {
@@ -285,6 +329,7 @@ void FitMatching::match_result(const FitTriangles& triangles, const std::vector<
         const double far = (sample.place - place).sqrnorm();
         if (far < nearest_start) nearest_start = far, start = OpenMesh::FaceHandle(sample.face);
       }
+      if (!start.is_valid()) start = start_without_samples(corner, triangles.normal[t], place);
       const SurfacePoint found = input_.locator.locate(Vec2d(0, 0), place, start);
       const Vec3d away = position(surface_, found) - place;
       FitPair& pair = pairs_[index++];

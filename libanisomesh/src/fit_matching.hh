@@ -59,8 +59,12 @@ class FitMatching {
   Vec3d centre_of(OpenMesh::FaceHandle face) const;
   void flood(const std::vector<OpenMesh::FaceHandle>& sources, const FitTriangles& triangles,
              const std::vector<Vec3d>& points);
+  void start_in_large_faces(const std::vector<OpenMesh::FaceHandle>& sources, const FitTriangles& triangles,
+                            const std::vector<Vec3d>& points);
   bool nearest(const Vec3d& place, const Vec3d& normal, const FitTriangles& triangles,
                const std::vector<Vec3d>& points, int& polygon, FitPair& pair) const;
+  OpenMesh::FaceHandle start_without_samples(const Triangle& corner, const Vec3d& normal,
+                                             const Vec3d& place) const;
   void match_result(const FitTriangles& triangles, const std::vector<Vec3d>& points);
 
   const SurfaceRef& surface_;
