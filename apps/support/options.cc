@@ -41,8 +41,14 @@ void add_fill_option(Command& command, FillOptions& options) {
 
 void add_feature_options(Command& command, FeatureFlags& flags) {
   CLI::App& app = command.arguments();
-  app.add_option("--feature-angle", flags.angle_degrees,
-                 "Tag edges whose faces' normals differ by more than this, in degrees; 0: none")
+  app.add_option_function<double>(
+         "--feature-angle",
+         [&flags](const double& degrees) {
+           flags.angle_degrees = degrees;
+           flags.angle_given = true;
+         },
+         "Tag edges whose faces' normals differ by more than this, in degrees; 0: none")
+      ->default_str("0")
       ->type_name("DEG")
       ->group("Features");
   app.add_option("--feature-file", flags.file,
@@ -51,6 +57,14 @@ void add_feature_options(Command& command, FeatureFlags& flags) {
       ->group("Features");
   app.add_flag("--drop-features", flags.only_new, "Forget the tags that the input brings along")
       ->group("Features");
+}
+
+void warn_of_sharp_edges(const Command& command, const FeatureFlags& flags,
+                         const anisomesh::FeatureReport& report) {
+  if (flags.angle_given || report.feature_edges > 0 || !report.is_mechanical()) return;
+  command.warn(
+      "sharp edges make up " + std::to_string(static_cast<int>(std::lround(100 * report.sharp))) +
+      " % of all edges and none is kept; --feature-angle 40 keeps them, --feature-angle 0 ends this warning");
 }
 
 void add_curvature_options(Command& command, CurvatureOptions& options) {

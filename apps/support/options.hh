@@ -13,6 +13,7 @@ namespace apps {
 /// What the command line says, where the library wants it resolved against the mesh.
 struct FeatureFlags {
   double angle_degrees = 0;
+  bool angle_given = false;
   std::string file;
   bool only_new = false;
 };
@@ -42,6 +43,9 @@ void add_max_error_option(Command& command, anisomesh::MaxErrorOptions& options)
 
 /// Reads --feature-file; its vertices are those of the file, before anything was dropped on reading.
 /// \throw InvalidInput
+/// A warning where a part with sharp edges is taken without features and nothing was said of them.
+void warn_of_sharp_edges(const Command& command, const FeatureFlags& flags,
+                         const anisomesh::FeatureReport& report);
 anisomesh::FeatureOptions resolve(const FeatureFlags& flags, const anisomesh::ReadReport& read);
 /// The fraction of the diagonal.
 double resolve(const EpsilonFlags& flags, const anisomesh::SurfaceRef& surface);

@@ -29,6 +29,9 @@ Json to_json(const FeatureReport& r) {
   return {{"feature_edges", r.feature_edges},
           {"by_angle", r.by_angle},
           {"by_list", r.by_list},
+          {"sharp", r.sharp},
+          {"rounded", r.rounded},
+          {"mechanical", r.is_mechanical()},
           {"seconds", r.seconds}};
 }
 

@@ -17,6 +17,7 @@ using OpenMesh::HalfedgeHandle;
 using OpenMesh::TriConnectivity;
 using OpenMesh::VertexHandle;
 
+constexpr double sharp_degrees = 40;
 constexpr double needle = 0.01;  // twice the area over the squared longest side: no thinner
 constexpr int needle_steps = 8;  // from needle to needle
 constexpr double pi = 3.14159265358979323846;
@@ -64,13 +65,14 @@ Vec3d normal_of(const SurfaceRef& surface, FaceHandle face) {
   return area_vector(surface, face);
 }
 
-bool exceeds_angle(const SurfaceRef& surface, EdgeHandle edge, double angle_degrees) {
+/// By how many degrees the surface turns at an edge; 0 on the border.
+double turn_at(const SurfaceRef& surface, EdgeHandle edge) {
   const auto& mesh = surface.connectivity();
   const auto h = mesh.halfedge_handle(edge, 0), g = mesh.halfedge_handle(edge, 1);
-  if (mesh.is_boundary(h) || mesh.is_boundary(g)) return false;
+  if (mesh.is_boundary(h) || mesh.is_boundary(g)) return 0;
   const Vec3d first = normal_of(surface, mesh.face_handle(h)).normalize_cond();
   const Vec3d second = normal_of(surface, mesh.face_handle(g)).normalize_cond();
-  return angle_between(first, second) > angle_degrees;
+  return angle_between(first, second);
 }
 
 std::vector<EdgeHandle> listed_edges(const TriConnectivity& mesh,
@@ -176,9 +178,22 @@ FeatureReport tag_features(const SurfaceRef& surface, const FeatureOptions& opti
   if (options.keep_existing && mesh.has_edge_status())
     for (const auto e : mesh.edges()) tagged[static_cast<size_t>(e.idx())] = mesh.status(e).feature();
   for (const auto e : listed_edges(mesh, options.edges)) tagged[static_cast<size_t>(e.idx())] |= 2;
-  if (options.angle_degrees > 0)
-    for (const auto e : mesh.edges())
-      if (exceeds_angle(surface, e, options.angle_degrees)) tagged[static_cast<size_t>(e.idx())] |= 4;
+  double length = 0;
+  for (const auto e : mesh.edges()) {
+    if (mesh.is_boundary(e)) continue;
+    const double turn = turn_at(surface, e);
+    if (options.angle_degrees > 0 && turn > options.angle_degrees) tagged[static_cast<size_t>(e.idx())] |= 4;
+    const double l = direction(surface, mesh.halfedge_handle(e, 0)).norm();
+    length += l;
+    if (turn > sharp_degrees)
+      report.sharp += l;
+    else if (turn > sharp_degrees / 2)
+      report.rounded += l;
+  }
+  if (length > 0) {
+    report.sharp /= length;
+    report.rounded /= length;
+  }
   if (!mesh.has_edge_status()) mesh.request_edge_status();
   for (const auto e : mesh.edges()) {
     const char tag = tagged[static_cast<size_t>(e.idx())];

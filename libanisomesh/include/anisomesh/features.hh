@@ -21,7 +21,12 @@ struct FeatureReport {
   size_t feature_edges = 0;  ///< tagged after the call, border edges not counted
   size_t by_angle = 0;       ///< of these, edges the angle asks for
   size_t by_list = 0;        ///< of these, edges of FeatureOptions::edges
+  double sharp = 0;    ///< of the length of all edges inside, how much turns by more than 40 degrees
+  double rounded = 0;  ///< likewise by 20 to 40 degrees
   double seconds = 0;
+  /// Sharp edges and little in between: a part that was made, not grown or scanned. Over the 62 meshes of
+  /// libcgal-demo with 400 to 40,000 triangles this tells them apart (docs/features.md).
+  bool is_mechanical() const { return sharp > 0.005 && sharp > 2 * rounded; }
 };
 
 /// Tags feature edges in OpenMesh's own feature status (requested if absent). [ACDLD03, section 1.3, 2.5]
