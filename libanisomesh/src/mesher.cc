@@ -57,9 +57,14 @@ constexpr double feature_tolerance = 4e-4;       // of the diagonal, however lar
 constexpr double tiny = 0.05;                    // of epsilon: no edge need be as short
 constexpr double around = 1.5;                   // diameters of such a polygon
 
-// Halves the share of the tolerances that holds near some polygons.
+// Halves the share of the tolerances that holds near some polygons. Isotropic samples that no tolerance moves
+// need not stay any longer.
 void take_more_care(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
-                    NetworkGraph& start) {
+                    bool give_up_samples, NetworkGraph& start) {
+  if (give_up_samples)
+    for (const auto& polygon : polygons)
+      for (const int n : polygon)
+        if (at(n) < start.fixed.size() && start.origins[at(n)] == Origin::isotropic) start.fixed[at(n)] = 0;
   if (start.share.empty()) start.share.assign(start.positions.size(), 1);
   std::vector<char> near(start.share.size(), 0);
   for (const auto& polygon : polygons) {
@@ -166,7 +171,7 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
     if (unsound.empty()) break;
     ++local.retries;
     if (local.retries > max_retries) refuse(unsound.front(), network, unsound.size());
-    take_more_care(unsound, network, start);
+    take_more_care(unsound, network, local.retries >= patience, start);
   }
   OpenMesh::PolyMesh mesh = detail::make_mesh(network, polygons);
   local.polygon_seconds += stopwatch.lap();
