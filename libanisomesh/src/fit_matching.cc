@@ -273,16 +273,16 @@ const std::vector<FitPair>& FitMatching::match(const FitTriangles& triangles,
   return pairs_;
 }
 
-// Of the faces that the corners come from and those around them, on whatever side of features.
-OpenMesh::FaceHandle FitMatching::start_without_samples(const Triangle& corner, const Vec3d& normal,
-                                                        const Vec3d& place) const {
+// Of the faces that the corners come from and those around them, on whatever side of features. A sliver may
+// be turned over: what faces the other way counts as much farther, but counts.
+OpenMesh::FaceHandle FitMatching::start_from_corners(const Triangle& corner, const Vec3d& normal,
+                                                     const Vec3d& place) const {
   OpenMesh::FaceHandle best = sources_[at(corner[0])];
   double least = std::numeric_limits<double>::infinity();
   for (const int v : corner)
     for (const auto u : surface_.corners(sources_[at(v)]).vertex)
       for (const auto f : surface_.connectivity().vf_range(u)) {
-        const double cosine = input_.normal[at(f.idx())] | normal;
-        if (!(cosine > least_cosine)) continue;
+        const double cosine = std::max(least_cosine, input_.normal[at(f.idx())] | normal);
         const auto c = surface_.corners(f);
         const Vec3d &x = surface_.point(c.vertex[0]), &y = surface_.point(c.vertex[1]),
                     &z = surface_.point(c.vertex[2]);
@@ -290,6 +290,43 @@ OpenMesh::FaceHandle FitMatching::start_without_samples(const Triangle& corner, 
         const double squared = (w[0] * x + w[1] * y + w[2] * z - place).sqrnorm() / (cosine * cosine);
         if (squared < least) least = squared, best = f;
       }
+  return best;
+}
+
+// The place of the input beside a place of the result, downhill from a sample matched with its triangle.
+// Where that is far or faces elsewhere, as when the way leads around the end of a feature or only samples
+// across one were matched, all of those samples and the faces that the corners come from are looked at.
+FitMatching::Foot FitMatching::foot_of(const Vec3d& place, const Vec3d& normal, const Triangle& corner,
+                                       const std::vector<int>& matched, double near) const {
+  const auto from = [&](OpenMesh::FaceHandle face) {
+    Foot foot;
+    foot.point = input_.locator.locate(Vec2d(0, 0), place, face);
+    foot.away = position(surface_, foot.point) - place;
+    const double cosine = input_.normal[at(foot.point.face.idx())] | normal;
+    foot.key = foot.away.norm() / std::max(least_cosine, cosine);
+    return foot;
+  };
+  const auto nearest_of = [&](size_t stride) {
+    int best = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < matched.size(); i += stride) {
+      const double far = (samples_[at(matched[i])].place - place).sqrnorm();
+      if (far < least) least = far, best = samples_[at(matched[i])].face;
+    }
+    return OpenMesh::FaceHandle(best);
+  };
+  Foot best;
+  best.key = std::numeric_limits<double>::infinity();
+  const size_t stride = std::max<size_t>(1, matched.size() / starts);
+  if (!matched.empty()) best = from(nearest_of(stride));
+  if (best.key > near && stride > 1) {
+    const Foot other = from(nearest_of(1));
+    if (other.key < best.key) best = other;
+  }
+  if (best.key > near) {
+    const Foot other = from(start_from_corners(corner, normal, place));
+    if (other.key < best.key) best = other;
+  }
   return best;
 }
 
@@ -319,25 +356,17 @@ void FitMatching::match_result(const FitTriangles& triangles, const std::vector<
     const Vec3d &a = points[at(corner[0])], &b = points[at(corner[1])], &c = points[at(corner[2])];
     const int n = static_cast<int>(std::lround(std::sqrt(begin[t + 1] - begin[t])));
     size_t index = n_input + at(begin[t]);
+    const std::vector<int> here(matched.begin() + first[t], matched.begin() + first[t + 1]);
+    const double near = near_match * std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
     for_each_piece(n, [&](const Vec3d& w) {
       const Vec3d place = w[0] * a + w[1] * b + w[2] * c;
-      OpenMesh::FaceHandle start;
-      double nearest_start = std::numeric_limits<double>::infinity();
-      const int stride = std::max(1, (first[t + 1] - first[t]) / starts);
-      for (int i = first[t]; i < first[t + 1]; i += stride) {
-        const Sample& sample = samples_[at(matched[at(i)])];
-        const double far = (sample.place - place).sqrnorm();
-        if (far < nearest_start) nearest_start = far, start = OpenMesh::FaceHandle(sample.face);
-      }
-      if (!start.is_valid()) start = start_without_samples(corner, triangles.normal[t], place);
-      const SurfacePoint found = input_.locator.locate(Vec2d(0, 0), place, start);
-      const Vec3d away = position(surface_, found) - place;
+      const Foot foot = foot_of(place, triangles.normal[t], corner, here, near);
       FitPair& pair = pairs_[index++];
       pair.triangle = static_cast<int>(t);
       pair.barycentric = w;
-      pair.face = found.face.idx();
-      pair.distance = away.norm();
-      pair.direction = pair.distance > least ? away / pair.distance : input_.normal[at(pair.face)];
+      pair.face = foot.point.face.idx();
+      pair.distance = foot.away.norm();
+      pair.direction = pair.distance > least ? foot.away / pair.distance : input_.normal[at(pair.face)];
       pair.weight = triangles.area[t] / (n * n * total);
     });
   });

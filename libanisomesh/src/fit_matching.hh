@@ -63,8 +63,15 @@ class FitMatching {
                             const std::vector<Vec3d>& points);
   bool nearest(const Vec3d& place, const Vec3d& normal, const FitTriangles& triangles,
                const std::vector<Vec3d>& points, int& polygon, FitPair& pair) const;
-  OpenMesh::FaceHandle start_without_samples(const Triangle& corner, const Vec3d& normal,
-                                             const Vec3d& place) const;
+  struct Foot {
+    SurfacePoint point;
+    Vec3d away{0, 0, 0};  ///< to it
+    double key = 0;       ///< distance, more where it faces elsewhere
+  };
+  OpenMesh::FaceHandle start_from_corners(const Triangle& corner, const Vec3d& normal,
+                                          const Vec3d& place) const;
+  Foot foot_of(const Vec3d& place, const Vec3d& normal, const Triangle& corner,
+               const std::vector<int>& matched, double near) const;
   void match_result(const FitTriangles& triangles, const std::vector<Vec3d>& points);
 
   const SurfaceRef& surface_;
