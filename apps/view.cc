@@ -157,7 +157,7 @@ int main(int argc, char* argv[]) {
     for (const auto& layer : a.layers) view::require_layer(layer, meshes.shown());
     if (!a.svg.empty()) {
       if (meshes.surfaces.empty()) throw InvalidInput("--svg draws an input surface, and none was given");
-      auto& surface = meshes.surfaces.front();
+      auto& surface = meshes.surfaces.back();
       if (!has_property(surface.mesh, property::uv)) view::require_layer("plane", meshes.shown());
       const auto* result = meshes.results.empty() ? nullptr : &meshes.results.front().mesh;
       write_text(view::plane_svg(surface.mesh, result, a.layers), a.svg);

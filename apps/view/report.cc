@@ -13,8 +13,8 @@ using namespace anisomesh;
 Shown Meshes::shown() const {
   Shown shown;
   if (!surfaces.empty()) {
-    shown.surface = &surfaces.front().mesh;
-    shown.surface_name = surfaces.front().name;
+    shown.surface = &surfaces.back().mesh;  // the page shows the last one, which has most on it
+    shown.surface_name = surfaces.back().name;
   }
   if (!results.empty()) {
     shown.result = &results.front().mesh;

@@ -1,5 +1,6 @@
 // The page as a person uses it: opened from a file in a real browser, layers switched, things clicked, turned.
 import assert from 'node:assert/strict';
+import { writeFileSync } from 'node:fs';
 import { before, test } from 'node:test';
 import { boxOf, differing, file, hues, makeKnown, must, near, openBrowser, screenshot } from './support.mjs';
 
@@ -221,6 +222,8 @@ test('a click says what is there', async () => {
   const quad = (await picked(page)).polygon;
   assert.equal(quad.number, 0);
   assert.match(quad.text, /corners\s+4/);
+  // its lifted corner: the normals (0, 0, 1) and (0.1, -0.05, 0.5) along one diagonal, (0.1, 0, 0.5) and (0, -0.05, 0.5) along the other
+  assert.match(quad.text, /bend\s+12\.6044 degrees/);
   await page.mouse.click(...(await place(page, box, 0.9, 0.3)));
   assert.equal((await picked(page)).polygon.number, 1);
   await page.mouse.click(...(await place(page, box, 0.5, 0.5)));
@@ -235,6 +238,36 @@ test('a click says what is there', async () => {
   assert.equal(both.face.number, 2 * (10 * 7 + 4));
   assert.equal(both.polygon.number, 0);
   assert.deepEqual(Object.keys(both).sort(), ['face', 'polygon']);
+  await page.close();
+});
+
+test('a corner that three edges pass straight through is no fold', async () => {
+  // three corners on a curved crease: the triangle between them stands upright, but nothing is cut along its long side
+  writeFileSync(file('straight.obj'), 'v 0 0 0\nv 1 0 0.02\nv 2 0 0\nv 1 1 0\nf 1 2 3 4\n');
+  must('anisomesh-view', '-q', 'straight.obj', '-o', 'straight.html', '--view', 'front');
+  const { page } = await open('straight.html');
+  const bend = await page.evaluate(() => window.anisomesh.stage.result.bend(0));
+  const expected = (Math.acos((1 + 0.02 ** 2 - 0.02 ** 2) / (1 + 2 * 0.02 ** 2)) * 180) / Math.PI;
+  assert.ok(Math.abs(bend - expected) < 1e-3, `${bend} against ${expected}`);
+  await page.close();
+});
+
+test('of several inputs the last is shown first, and each can be chosen', async () => {
+  must('anisomesh-shapes', '-q', 'dome', '--vertices', '300', '-o', 'dome.om');
+  must('anisomesh-estimate', '-q', 'dome.om', '-o', 'dome-1.om');
+  must('anisomesh-flatten', '-q', 'dome-1.om', '-o', 'dome-2.om');
+  must('anisomesh-view', '-q', 'dome-1.om', 'dome-2.om', '-o', 'stages.html', '--layer', 'plane', '--layer', 'stretch');
+  const { page, complaints } = await open('stages.html');
+  assert.equal(await page.evaluate(() => window.anisomesh.stage.surface.name), 'dome-2.om');
+  assert.ok((await layerNames(page)).includes('umbilics'));
+  // flattening shrinks the middle least: the scale is symmetric about 1, but only what there is of it is named
+  const { low, high, from, to } = await page.evaluate(() => window.anisomesh.stage.ranges.stretch);
+  assert.equal(low, -high);
+  assert.ok(Math.max(-from, to) === high && Math.min(-from, to) < high, `${from} to ${to} of ${low} to ${high}`);
+  await page.locator('select').selectOption('0');
+  assert.equal(await page.evaluate(() => window.anisomesh.stage.surface.name), 'dome-1.om');
+  assert.ok(!(await layerNames(page)).includes('umbilics'));
+  assert.deepEqual(complaints, []);
   await page.close();
 });
 

@@ -55,20 +55,24 @@ export function mapColour(map, t, out, at) {
   for (let c = 0; c < 3; ++c) out[at + c] = Math.round(table[i][c] + (x - i) * (table[i + 1][c] - table[i][c]));
 }
 
-/** The range of the values without their outermost 2 % at either end; symmetric about 0 for a diverging map. */
+/** What a colour map runs over: the values without their outermost 2 % at either end, symmetric about 0 for a diverging map. Between
+ *  `from` and `to` there are values: of a symmetric map a part may be empty. */
 export function robustRange(values, { diverging, fromZero }) {
   const sorted = Float32Array.from(values.filter((v) => Number.isFinite(v))).sort();
-  if (!sorted.length) return [0, 1];
+  if (!sorted.length) return spanOf(0, 1);
   const at = (share) => sorted[Math.round(share * (sorted.length - 1))];
-  let [low, high] = [at(0.02), at(0.98)];
+  const [low, high] = [at(0.02), at(0.98)];
+  const [least, most] = [sorted[0], sorted[sorted.length - 1]];
   if (diverging) {
-    high = Math.max(Math.abs(low), Math.abs(high));
-    if (!(high > 0)) high = Math.max(Math.abs(sorted[0]), Math.abs(sorted[sorted.length - 1]));
-    low = -high;
+    const largest = Math.max(Math.abs(low), Math.abs(high)) || Math.max(Math.abs(least), Math.abs(most)) || 1;
+    return { ...spanOf(-largest, largest), ...(high > low ? { from: low, to: high } : {}) };
   }
-  if (fromZero) {
-    low = 0;
-    if (!(high > 0)) high = sorted[sorted.length - 1];
-  }
-  return high > low ? [low, high] : [low, low + (Math.abs(low) || 1) * 1e-6];
+  if (fromZero) return spanOf(0, high > 0 ? high : most);
+  return spanOf(low, high);
+}
+
+/** A range that is not empty, and all of it in use. */
+export function spanOf(low, high) {
+  const end = high > low ? high : low + (Math.abs(low) || 1) * 1e-6;
+  return { low, high: end, from: low, to: end };
 }

@@ -1,5 +1,7 @@
 // The scalars that a colour map can show: how each comes from what the stages wrote, its map and its range.
 
+import { spanOf } from './colour.js';
+
 const curvature = { map: 'coolwarm', diverging: true };
 const tick = (v) =>
   v === 0 ? '0' : Math.abs(v) >= 1e4 || Math.abs(v) < 1e-3 ? v.toExponential(1) : String(+v.toPrecision(3));
@@ -22,7 +24,7 @@ export const surfaceFields = {
   },
   anisotropy: {
     map: 'viridis',
-    range: [0, 1],
+    range: spanOf(0, 1),
     label: 'anisotropy ||k_max| − |k_min|| / (|k_max| + |k_min|)',
     needs: ['k_min', 'k_max'],
     of: (a, i) => {
@@ -43,7 +45,7 @@ export const surfaceFields = {
 export const resultFields = {
   degree: { label: 'corners', categories: true },
   error: { map: 'viridis', fromZero: true, label: 'rms distance to the input, % of its diagonal' },
-  bend: { map: 'viridis', fromZero: true, label: 'bend along a diagonal, degrees' },
+  bend: { map: 'viridis', fromZero: true, label: 'bend along the flatter diagonal, degrees' },
 };
 
 export function formatTick(field, value) {

@@ -74,6 +74,18 @@ function drawUmbilics(surface, domain) {
   });
 }
 
+function drawSamples(surface, domain) {
+  return dotsOf(surface.places(domain, 'sample'), {
+    colours: repeat(rgb(colours.sample), surface.arrays.sample_faces.length),
+    size: 6,
+  });
+}
+
+function drawTriangles(surface, domain) {
+  const segments = edgeSegments(triangleEdges(surface), surface.pointsIn(domain));
+  return segmentsOf(segments, { colour: rgb(colours.triangles), width: 1, bias: 0.001 });
+}
+
 function drawEdges(key, colour, width) {
   return (surface, domain) =>
     segmentsOf(edgeSegments(surface.arrays[key], surface.pointsIn(domain)), { colour: rgb(colour), width });
@@ -101,197 +113,128 @@ const has =
     keys.every((key) => model.arrays[key]);
 const always = () => true;
 
+/** The layers of one part of the panel: what they share, and what each adds to it. */
+const group = (title, of, shared, ...members) =>
+  members.map((member) => ({ group: title, of, available: always, ...shared, ...member }));
+
+const curvatures = { available: has('k_min', 'k_max') };
+const lines = (name, kind, colour) => ({
+  name: `${name}-lines`,
+  label: `${name} lines`,
+  available: has('line_table'),
+  draw: drawLines(kind),
+  swatch: [[`${name} lines`, colour]],
+});
+const edges = (name, label, colour, width) => ({
+  name,
+  label,
+  available: has(name),
+  draw: drawEdges(name, colour, width),
+  swatch: [[name, colour]],
+});
+const crosses = (name, label, source, swatch, available) => ({
+  name,
+  label,
+  available,
+  draw: drawCrosses(source),
+  swatch: [
+    [`${swatch}min direction`, colours.min],
+    [`${swatch}max direction`, colours.max],
+  ],
+});
+
 /** In the order of the panel. `of` is what a layer is drawn from. */
 export const layers = [
-  { name: 'surface', group: 'Panes', label: 'input', of: 'surface', available: always },
-  { name: 'plane', group: 'Panes', label: 'input in the plane', of: 'surface', available: has('uv') },
-  { name: 'result', group: 'Panes', label: 'result', of: 'result', available: always },
-  { name: 'overlay', group: 'Panes', label: 'result over input', of: 'both', available: always },
-
-  { name: 'k-min', group: 'Colour of the input', label: 'k_min', of: 'surface', field: true, available: has('k_min') },
-  { name: 'k-max', group: 'Colour of the input', label: 'k_max', of: 'surface', field: true, available: has('k_max') },
-  {
-    name: 'mean',
-    group: 'Colour of the input',
-    label: 'mean curvature',
-    of: 'surface',
-    field: true,
-    available: has('k_min', 'k_max'),
-  },
-  {
-    name: 'gauss',
-    group: 'Colour of the input',
-    label: 'Gaussian curvature',
-    of: 'surface',
-    field: true,
-    available: has('k_min', 'k_max'),
-  },
-  {
-    name: 'anisotropy',
-    group: 'Colour of the input',
-    label: 'anisotropy',
-    of: 'surface',
-    field: true,
-    available: has('k_min', 'k_max'),
-  },
-  {
-    name: 'stretch',
-    group: 'Colour of the input',
-    label: 'area stretch',
-    of: 'surface',
-    field: true,
-    available: has('stretch'),
-  },
-
-  {
-    name: 'triangles',
-    group: 'On the input',
-    label: 'triangles',
-    of: 'surface',
-    available: always,
-    draw: (s, d) =>
-      segmentsOf(edgeSegments(triangleEdges(s), s.pointsIn(d)), {
-        colour: rgb(colours.triangles),
-        width: 1,
-        bias: 0.001,
-      }),
-  },
-  {
-    name: 'border',
-    group: 'On the input',
-    label: 'border',
-    of: 'surface',
-    available: has('border'),
-    draw: drawEdges('border', colours.border, 2),
-    swatch: [['border', colours.border]],
-  },
-  {
-    name: 'features',
-    group: 'On the input',
-    label: 'features',
-    of: 'surface',
-    available: has('features'),
-    draw: drawEdges('features', colours.feature, 3),
-    swatch: [['features', colours.feature]],
-  },
-  {
-    name: 'seams',
-    group: 'On the input',
-    label: 'seams of charts',
-    of: 'surface',
-    available: has('seams'),
-    draw: drawEdges('seams', colours.seam, 3),
-    swatch: [['seams', colours.seam]],
-  },
-  {
-    name: 'crosses',
-    group: 'On the input',
-    label: 'principal directions',
-    of: 'surface',
-    available: has('k_min', 'k_max', 'gamma_min', 'gamma_max'),
-    draw: drawCrosses('estimated'),
-    swatch: [
-      ['min direction', colours.min],
-      ['max direction', colours.max],
-    ],
-  },
-  {
-    name: 'smoothed-crosses',
-    group: 'On the input',
-    label: 'smoothed directions',
-    of: 'surface',
-    available: (s) => has('uv', 'tensor2d')(s) || has('smoothed_k')(s),
-    draw: drawCrosses('smoothed'),
-    swatch: [
-      ['smoothed min direction', colours.min],
-      ['smoothed max direction', colours.max],
-    ],
-  },
-  {
-    name: 'min-lines',
-    group: 'On the input',
-    label: 'min lines',
-    of: 'surface',
-    available: has('line_table'),
-    draw: drawLines(0),
-    swatch: [['min lines', colours.min]],
-  },
-  {
-    name: 'max-lines',
-    group: 'On the input',
-    label: 'max lines',
-    of: 'surface',
-    available: has('line_table'),
-    draw: drawLines(1),
-    swatch: [['max lines', colours.max]],
-  },
-  {
-    name: 'samples',
-    group: 'On the input',
-    label: 'isotropic samples',
-    of: 'surface',
-    available: has('sample_faces'),
-    draw: (s, d) =>
-      dotsOf(s.places(d, 'sample'), { colours: repeat(rgb(colours.sample), s.arrays.sample_faces.length), size: 6 }),
-    swatch: [['isotropic samples', colours.sample, 'disc']],
-  },
-  {
-    name: 'umbilics',
-    group: 'On the input',
-    label: 'umbilics',
-    of: 'surface',
-    available: has('umbilic_wedge'),
-    draw: drawUmbilics,
-    swatch: [
-      ['wedges', colours.wedge, 'disc'],
-      ['trisectors', colours.trisector, 'triangle'],
-    ],
-  },
-
-  { name: 'degree', group: 'Colour of the result', label: 'degree', of: 'result', field: true, available: always },
-  {
-    name: 'error',
-    group: 'Colour of the result',
-    label: 'error',
-    of: 'result',
-    field: true,
-    available: has('face_error'),
-  },
-  { name: 'bend', group: 'Colour of the result', label: 'bend', of: 'result', field: true, available: always },
-
-  {
-    name: 'polygons',
-    group: 'On the result',
-    label: 'edges',
-    of: 'result',
-    available: always,
-    draw: drawResultEdges(false),
-  },
-  {
-    name: 'edge-kinds',
-    group: 'On the result',
-    label: 'edges by kind',
-    of: 'result',
-    available: has('edge_kind'),
-    draw: drawResultEdges(true),
-    swatch: edgeKinds,
-  },
-  {
-    name: 'origins',
-    group: 'On the result',
-    label: 'vertices by origin',
-    of: 'result',
-    available: has('origin'),
-    draw: drawOrigins,
-    swatch: origins.map(([what, colour]) => [what, colour, 'disc']),
-  },
-  {
-    name: 'plane-polygons',
-    group: 'On the result',
-    label: 'polygons in the plane',
-    of: 'both',
-    available: (model, surface) => Boolean(surface && surface.arrays.uv && model.arrays.source_faces),
-  },
+  ...group(
+    'Panes',
+    'surface',
+    {},
+    { name: 'surface', label: 'input' },
+    { name: 'plane', label: 'input in the plane', available: has('uv') },
+    { name: 'result', label: 'result', of: 'result' },
+    { name: 'overlay', label: 'result over input', of: 'both' },
+  ),
+  ...group(
+    'Colour of the input',
+    'surface',
+    { field: true },
+    { name: 'k-min', label: 'k_min', ...curvatures },
+    { name: 'k-max', label: 'k_max', ...curvatures },
+    { name: 'mean', label: 'mean curvature', ...curvatures },
+    { name: 'gauss', label: 'Gaussian curvature', ...curvatures },
+    { name: 'anisotropy', label: 'anisotropy', ...curvatures },
+    { name: 'stretch', label: 'area stretch', available: has('stretch') },
+  ),
+  ...group(
+    'On the input',
+    'surface',
+    {},
+    { name: 'triangles', label: 'triangles', draw: drawTriangles },
+    edges('border', 'border', colours.border, 2),
+    edges('features', 'features', colours.feature, 3),
+    edges('seams', 'seams of charts', colours.seam, 3),
+    crosses('crosses', 'principal directions', 'estimated', '', has('k_min', 'k_max', 'gamma_min', 'gamma_max')),
+    crosses(
+      'smoothed-crosses',
+      'smoothed directions',
+      'smoothed',
+      'smoothed ',
+      (s) => has('uv', 'tensor2d')(s) || has('smoothed_k')(s),
+    ),
+    lines('min', 0, colours.min),
+    lines('max', 1, colours.max),
+    {
+      name: 'samples',
+      label: 'isotropic samples',
+      available: has('sample_faces'),
+      draw: drawSamples,
+      swatch: [['isotropic samples', colours.sample, 'disc']],
+    },
+    {
+      name: 'umbilics',
+      label: 'umbilics',
+      available: has('umbilic_wedge'),
+      draw: drawUmbilics,
+      swatch: [
+        ['wedges', colours.wedge, 'disc'],
+        ['trisectors', colours.trisector, 'triangle'],
+      ],
+    },
+  ),
+  ...group(
+    'Colour of the result',
+    'result',
+    { field: true },
+    { name: 'degree', label: 'degree' },
+    { name: 'error', label: 'error', available: has('face_error') },
+    { name: 'bend', label: 'bend' },
+  ),
+  ...group(
+    'On the result',
+    'result',
+    {},
+    { name: 'polygons', label: 'edges', draw: drawResultEdges(false) },
+    {
+      name: 'edge-kinds',
+      label: 'edges by kind',
+      available: has('edge_kind'),
+      draw: drawResultEdges(true),
+      swatch: edgeKinds,
+    },
+    {
+      name: 'origins',
+      label: 'vertices by origin',
+      available: has('origin'),
+      draw: drawOrigins,
+      swatch: origins.map(([what, colour]) => [what, colour, 'disc']),
+    },
+    {
+      name: 'plane-polygons',
+      label: 'polygons in the plane',
+      of: 'both',
+      available: (model, surface) => Boolean(surface && surface.arrays.uv && model.arrays.source_faces),
+    },
+  ),
 ];
 
 export const layerOf = Object.fromEntries(layers.map((layer) => [layer.name, layer]));

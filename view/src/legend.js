@@ -98,22 +98,28 @@ function drawSwatch(context, { text, colour, shape, x }, y) {
   context.fillText(text, x + 24, y + 4);
 }
 
+/** The bar of a colour map, as far as there are values; between its ends 0 is named, or the middle where 0 is too near to them. */
 function drawBar(context, { field, range }, left, width, y) {
   const [x, w] = [left + 10, Math.min(width - 20, 300)];
+  const { low, high, from, to } = range;
   const out = [0, 0, 0];
   for (let i = 0; i < w; ++i) {
-    mapColour(field.map, i / (w - 1), out, 0);
+    mapColour(field.map, (from + (i / (w - 1)) * (to - from) - low) / (high - low), out, 0);
     context.fillStyle = `rgb(${out})`;
     context.fillRect(x + i, y + 17, 1.5, 10);
   }
   context.fillStyle = '#1c2126';
-  context.fillText(field.label, x, y + 12);
-  const ticks = [range[0], (range[0] + range[1]) / 2, range[1]];
-  ticks.forEach((tick, i) => {
-    const text = formatTick(field, tick);
-    const size = context.measureText(text).width;
-    context.fillText(text, x + [0, (w - size) / 2, w - size][i], y + 40);
-  });
+  context.fillText(field.label, x, y + 12, width - 20);
+  const texts = [from, to].map((end) => formatTick(field, end));
+  const [first, last] = texts.map((text) => context.measureText(text).width);
+  const zero = -from / (to - from);
+  const text = formatTick(field, 0);
+  const half = context.measureText(text).width / 2 + 8;
+  const isZeroFree = field.diverging && zero * w > first + half && zero * w < w - last - half;
+  const middle = isZeroFree ? text : formatTick(field, (from + to) / 2);
+  context.fillText(texts[0], x, y + 40);
+  context.fillText(middle, x + (isZeroFree ? zero : 0.5) * w - context.measureText(middle).width / 2, y + 40);
+  context.fillText(texts[1], x + w - last, y + 40);
 }
 
 const titles = { surface: 'input', plane: 'input in the plane', result: 'result', overlay: 'result over input' };
@@ -138,7 +144,7 @@ export function drawLabels(context, stage, pane, box, height) {
   const after = box.x + 18 + context.measureText(titles[pane]).width;
   context.font = font;
   context.fillStyle = '#5b636c';
-  context.fillText(`${name}, ${size}`, after, box.y + 16);
+  context.fillText(`${name}, ${size}`, after, box.y + 16, box.x + box.width - after - 4);
   let y = box.y + box.height - height;
   const shown = fieldIn(stage, pane);
   if (shown) {

@@ -76,12 +76,13 @@ export class Result {
     return ShapeUtils.triangulateShape(flat, []).map((t) => t.map((i) => p[i]));
   }
 
-  /** The larger angle that a quad is bent by along one of its diagonals; for other polygons, of a corner to the whole. Degrees. */
+  /** The angle that a quad is bent by along the diagonal where it is less: along the other one a corner that three edges pass straight
+   *  through would count as a fold. For other polygons, of a corner to the whole. Degrees. */
   bend(f) {
     const p = this.polygon(f);
     if (p.length === 3) return 0;
     if (p.length === 4)
-      return Math.max(
+      return Math.min(
         angle(this.triangle(p[0], p[1], p[2]), this.triangle(p[0], p[2], p[3])),
         angle(this.triangle(p[1], p[2], p[3]), this.triangle(p[1], p[3], p[0])),
       );

@@ -15,7 +15,7 @@ function coloursOf(field, values, range, count) {
     const v = values[i];
     if (!Number.isFinite(v)) out.set(missing, 3 * i);
     else if (field.categories) out.set(rgb(degreeColours[Math.min(Math.max(v, 3), 7)]), 3 * i);
-    else mapColour(field.map, (v - range[0]) / (range[1] - range[0]), out, 3 * i);
+    else mapColour(field.map, (v - range.low) / (range.high - range.low), out, 3 * i);
   }
   return out;
 }
@@ -25,7 +25,8 @@ export class Stage {
     this.surfaces = surfaces;
     this.results = results;
     this.on = new Set();
-    this.choose(surfaces[0] ?? null, results[0] ?? null);
+    // The last input has most on it: stages are named in order.
+    this.choose(surfaces[surfaces.length - 1] ?? null, results[0] ?? null);
   }
 
   /** Which of the meshes are looked at. */
