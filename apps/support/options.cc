@@ -114,6 +114,11 @@ void add_density_options(Command& command, EpsilonFlags& epsilon, TraceOptions& 
       ->type_name("E")
       ->group("Density");
   app.add_flag("--absolute", epsilon.absolute, "Take --epsilon in model units")->group("Density");
+  add_choice<Follow>(
+      app, "--follow", options.follow, {{"curvature", Follow::curvature}, {"min-abs", Follow::min_abs}},
+      "What lines follow where the surface is saddle-shaped; min-abs: one family runs where it "
+      "does not bend",
+      "Density");
   app.add_option("--rho", options.density.rho, "0: anisotropic, 1: isotropic, in [0, 1]")
       ->type_name("R")
       ->group("Density");

@@ -57,6 +57,8 @@ struct UmbilicPoint {
   double curvature = 0;  ///< larger |curvature|, 1/length
 };
 
+constexpr double kOffUmbilic = 0.05;  ///< spacings from an umbilic to the second point of a line from it
+
 struct NearUmbilic {
   int index = -1;  ///< into Domain::umbilics(); -1: none is near
   double distance = std::numeric_limits<double>::infinity();

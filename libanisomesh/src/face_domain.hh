@@ -46,8 +46,18 @@ class FaceDomain : public Domain {
 
  protected:
   FaceDomain(size_t n_faces, std::vector<UmbilicPoint> umbilics, const DensityOptions& options,
-             const Density& density)
-      : faces_(n_faces), umbilics_(std::move(umbilics)), max_slope_(options.max_slope), density_(density) {}
+             const Density& density, Follow follow)
+      : faces_(n_faces),
+        umbilics_(std::move(umbilics)),
+        max_slope_(options.max_slope),
+        density_(density),
+        follow_(follow) {}
+
+  Follow follow() const { return follow_; }
+  /// Length of the first, straight step of a line from an umbilic, model units.
+  double first_step(const UmbilicPoint& umbilic, LineKind kind) const {
+    return kOffUmbilic * spacing(kind, umbilic.point);
+  }
 
   /// Spacings at the nodes, by their tensors, graded along the edges.
   /// \param length of the edge of a face from corner i to corner i + 1, model units
@@ -78,6 +88,7 @@ class FaceDomain : public Domain {
   std::vector<NearEntry> near_umbilics_;  // ascending
   double max_slope_;
   Density density_;
+  Follow follow_;
 };
 
 }  // namespace anisomesh::detail

@@ -63,6 +63,8 @@ FitInput::FitInput(const SurfaceRef& surface) : locator(surface) {
     normal.push_back(twice > 0 ? n / twice : Vec3d(0, 0, 0));
     area.push_back(0.5 * twice);
   }
+  if (has_property(mesh, property::follow))
+    follow = static_cast<Follow>(mesh.property(require_property(mesh, property::follow)));
   if (!has_property(mesh, property::tensor)) return;
   const auto of_vertex = require_property(mesh, property::tensor);
   for (const auto f : mesh.faces()) {

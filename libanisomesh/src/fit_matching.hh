@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "anisomesh/lines.hh"
 #include "anisomesh/surface.hh"
 #include "fit_mesh.hh"
 #include "near_locator.hh"
@@ -16,7 +17,8 @@ struct FitInput {
   std::vector<Vec3d> normal;  ///< unit; zero without area
   std::vector<double> area;
   NearLocator locator;
-  std::vector<Vec6d> tensor;  ///< of curvature, mean of the corners'; empty where none was estimated
+  std::vector<Vec6d> tensor;          ///< of curvature, mean of the corners'; empty where none was estimated
+  Follow follow = Follow::curvature;  ///< what its lines follow
 };
 
 /// Squared distance of one sample to the other mesh, as the fit sees it: it changes by

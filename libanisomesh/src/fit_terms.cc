@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "linear_field.hh"
+
 namespace anisomesh::detail {
 
 namespace {
@@ -93,9 +95,9 @@ struct SideTensor {
 
 // The nearer principal direction's companion: the part of the side along it is what turns it away.
 void add_turn(const FitMesh::Side& side, const SideTensor& curvature, const Vec3d& normal,
-              double align_weight, const std::vector<Vec3d>& points, FitSystem& system) {
+              double align_weight, Follow follow, const std::vector<Vec3d>& points, FitSystem& system) {
   const TangentFrame frame(normal);
-  const Vec3d t = in_frame(curvature.tensor, frame);
+  const Vec3d t = followed(in_frame(curvature.tensor, frame), follow);
   const double mean = 0.5 * (t[0] + t[2]), half = 0.5 * (t[0] - t[2]), deviator = std::hypot(half, t[1]);
   const double small = std::min(std::abs(mean - deviator), std::abs(mean + deviator)),
                large = std::max(std::abs(mean - deviator), std::abs(mean + deviator));
@@ -119,7 +121,7 @@ void add_turn(const FitMesh::Side& side, const SideTensor& curvature, const Vec3
 }
 
 void add_turns(const FitMesh& mesh, const FitTriangles& triangles, const std::vector<TriangleForm>& forms,
-               double align_weight, const std::vector<Vec3d>& points, FitSystem& system) {
+               double align_weight, Follow follow, const std::vector<Vec3d>& points, FitSystem& system) {
   std::vector<SideTensor> curvature(mesh.sides.size());
   std::vector<Vec3d> normal(mesh.sides.size(), Vec3d(0, 0, 0));
   for (int p = 0; p < mesh.n_polygons(); ++p)
@@ -133,7 +135,8 @@ void add_turns(const FitMesh& mesh, const FitTriangles& triangles, const std::ve
       }
   for (size_t s = 0; s < mesh.sides.size(); ++s) {
     const double length = normal[s].norm();
-    if (length > 0) add_turn(mesh.sides[s], curvature[s], normal[s] / length, align_weight, points, system);
+    if (length > 0)
+      add_turn(mesh.sides[s], curvature[s], normal[s] / length, align_weight, follow, points, system);
   }
 }
 
@@ -154,7 +157,7 @@ void add_surface_terms(const FitMesh& mesh, const FitTriangles& triangles, const
     }
   }
   if (!input.tensor.empty() && options.alignment_weight > 0)
-    add_turns(mesh, triangles, forms, options.alignment_weight, points, system);
+    add_turns(mesh, triangles, forms, options.alignment_weight, input.follow, points, system);
 }
 
 void add_planarity(const FitMesh& mesh, const std::vector<Vec3d>& points, double weight, double total_area,

@@ -171,7 +171,7 @@ IsotropicReport place_isotropic_samples(const SurfaceRef& surface, const TraceOp
   const auto start = std::chrono::steady_clock::now();
   options.validate();
   LineNetwork network = read_lines(surface);
-  const auto domain = detail::make_domain(surface, options.density);
+  const auto domain = detail::make_domain(surface, options.density, options.follow);
   report_progress(progress, 0);
   SamplePlacement placement(*domain, options.seed);
   auto umbilics = placement.umbilic_candidates(network), anywhere = placement.random_candidates();

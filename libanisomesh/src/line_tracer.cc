@@ -233,7 +233,7 @@ TracedLine LineTracer::trace_from_umbilic(int umbilic, const Vec2d& direction_th
   start.direction = direction_there;
   // The field has no direction at the umbilic itself: a first straight step leads off it.
   bool blocked = false;
-  forward.points = {start, after_straight_step(start, 0.05, blocked)};
+  forward.points = {start, after_straight_step(start, kOffUmbilic, blocked)};
   if (!blocked) run(forward, id, umbilic, 0);
   backward.reason = LineEnd::umbilic;
   return join(forward, backward, id);

@@ -8,13 +8,12 @@ namespace anisomesh::detail {
 
 namespace {
 
-// Derivatives of the deviator by the two coordinates.
-struct DeviatorGradient {
-  Vec2d x, y;
-  explicit DeviatorGradient(const LinearField& field) {
+// Derivatives of the tensor by the two coordinates.
+struct TensorGradient {
+  Vec3d x, y;
+  explicit TensorGradient(const LinearField& field) {
     const Vec2d u = field.corner[1] - field.corner[0], v = field.corner[2] - field.corner[0];
-    const Vec2d du = deviator(field.tensor[1] - field.tensor[0]);
-    const Vec2d dv = deviator(field.tensor[2] - field.tensor[0]);
+    const Vec3d du = field.tensor[1] - field.tensor[0], dv = field.tensor[2] - field.tensor[0];
     const double area = cross2(u, v);
     x = (v[1] * du - u[1] * dv) / area;
     y = (u[0] * dv - v[0] * du) / area;
@@ -35,25 +34,34 @@ double middle_of_three(const std::vector<double>& angles) {
 
 }  // namespace
 
+Vec3d followed(const Vec3d& tensor, Follow follow) {
+  return follow == Follow::min_abs ? turned_to_asymptotic(tensor) : tensor;
+}
+
 double turning_length(const LinearField& field, const Vec3d& tensor_here) {
-  const DeviatorGradient g(field);
-  const double gradient = std::sqrt(g.x.sqrnorm() + g.y.sqrnorm());
+  const TensorGradient g(field);
+  const double gradient = std::hypot(deviator_norm(g.x), deviator_norm(g.y));
   return deviator_norm(tensor_here) / gradient;
 }
 
-std::vector<Vec2d> separatrix_directions(const LinearField& field, int index, LineKind kind) {
-  const DeviatorGradient gradient(field);
-  const Vec2d gx = gradient.x, gy = gradient.y;
+std::vector<Vec2d> separatrix_directions(const LinearField& field, const UmbilicPoint& umbilic, LineKind kind,
+                                         Follow follow, double reach) {
+  const TensorGradient gradient(field);
+  const Vec3d& b = umbilic.point.barycentric;
+  const Vec3d there = b[0] * field.tensor[0] + b[1] * field.tensor[1] + b[2] * field.tensor[2];
+  const double mean = 0.5 * (there[0] + there[2]);  // all there is at an umbilic, but for rounding
+  const auto deviator_at = [&](double angle) {
+    const Vec3d ahead = reach * (std::cos(angle) * gradient.x + std::sin(angle) * gradient.y);
+    return deviator(followed(Vec3d(mean, 0, mean) + ahead, follow));
+  };
   // Along a separatrix the deviator, seen from the umbilic, is an eigenvector of itself: its angle is twice
   // that of the ray, up to a half turn that tells min from max.
   const double sign = kind == LineKind::max ? 1 : -1;
   const auto off_ray = [&](double angle) {
-    const Vec2d d = std::cos(angle) * gx + std::sin(angle) * gy;
-    return sign * cross2(Vec2d(std::cos(2 * angle), std::sin(2 * angle)), d);
+    return sign * cross2(Vec2d(std::cos(2 * angle), std::sin(2 * angle)), deviator_at(angle));
   };
   const auto along = [&](double angle) {
-    const Vec2d d = std::cos(angle) * gx + std::sin(angle) * gy;
-    return sign * (d | Vec2d(std::cos(2 * angle), std::sin(2 * angle)));
+    return sign * (deviator_at(angle) | Vec2d(std::cos(2 * angle), std::sin(2 * angle)));
   };
   std::vector<double> angles;
   constexpr int kSamples = 360;
@@ -69,7 +77,7 @@ std::vector<Vec2d> separatrix_directions(const LinearField& field, int index, Li
     if (along(low) > 0) angles.push_back(low);
   }
   // A wedge with three rays has them on one side: the middle one stands for them.
-  if (index > 0 && angles.size() == 3) angles = {middle_of_three(angles)};
+  if (umbilic.index > 0 && angles.size() == 3) angles = {middle_of_three(angles)};
   std::vector<Vec2d> directions;
   directions.reserve(angles.size());
   for (const double angle : angles) directions.emplace_back(std::cos(angle), std::sin(angle));

@@ -5,8 +5,12 @@
 #include <vector>
 
 #include "anisomesh/lines.hh"
+#include "domain.hh"
 
 namespace anisomesh::detail {
+
+/// What lines follow where the curvature tensor is this one.
+Vec3d followed(const Vec3d& tensor, Follow follow);
 
 /// One triangle of a tensor field that is linear in it.
 struct LinearField {
@@ -17,7 +21,10 @@ struct LinearField {
 /// |deviator| / |its gradient|, in the unit of the corners; infinite where the field is constant.
 double turning_length(const LinearField& field, const Vec3d& tensor_here);
 
-/// Unit directions in which the lines of a kind leave the umbilic (of this index) in the triangle.
-std::vector<Vec2d> separatrix_directions(const LinearField& field, int index, LineKind kind);
+/// Unit directions in which the lines of a kind leave the umbilic in the triangle.
+/// \param reach how far from the umbilic they are to fit, in the unit of the corners: what min_abs follows is
+/// not linear
+std::vector<Vec2d> separatrix_directions(const LinearField& field, const UmbilicPoint& umbilic, LineKind kind,
+                                         Follow follow, double reach);
 
 }  // namespace anisomesh::detail

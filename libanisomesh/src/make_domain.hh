@@ -9,6 +9,7 @@ namespace anisomesh::detail {
 
 /// The plane where flatten() has run, else the surface itself. Reads: what trace_lines() reads.
 /// \throw InvalidInput
-std::unique_ptr<FaceDomain> make_domain(const SurfaceRef& surface, const DensityOptions& density);
+std::unique_ptr<FaceDomain> make_domain(const SurfaceRef& surface, const DensityOptions& density,
+                                        Follow follow = Follow::curvature);
 
 }  // namespace anisomesh::detail

@@ -89,6 +89,7 @@ PatchMoves::PatchMoves(const SurfaceRef& surface, const FitInput& input, const F
   mean_error_ = total / std::max(1, mesh.n_polygons());
   costs_.triangle = options.triangle_cost * mean_error_;
   costs_.quads = options.max_degree == 4;
+  costs_.follow = input.follow;
   double length = 0;
   for (const auto& side : mesh.sides)
     length += (fit.points()[at(side.to)] - fit.points()[at(side.from)]).norm();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "linear_field.hh"
 #include "numerics/tensor3d.hh"
 #include "polygon_judge.hh"
 
@@ -31,7 +32,7 @@ PatchView::PatchView(const Vec3d& normal, std::vector<PatchSample> samples, cons
   const TangentFrame frame(normal);
   u_ = frame.u;
   v_ = frame.v;
-  const Vec3d t = in_frame(tensor, frame);
+  const Vec3d t = followed(in_frame(tensor, frame), costs.follow);
   const double mean = 0.5 * (t[0] + t[2]), half = 0.5 * (t[0] - t[2]), deviator = std::hypot(half, t[1]);
   angle_ = 0.5 * std::atan2(t[1], half);
   anisotropy_ = anisotropy(mean - deviator, mean + deviator);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "anisomesh/lines.hh"
 #include "numerics/bvh.hh"
 #include "numerics/tensor3d.hh"
 
@@ -18,7 +19,8 @@ struct PatchSample {
 struct PatchCosts {
   double triangle = 0;  ///< for each triangle
   bool quads = true;    ///< may be made
-  double chord = 0;     ///< for a side that lies diagonally to the principal directions, by its length
+  double chord = 0;  ///< for a side that lies diagonally to the directions that lines follow, by its length
+  Follow follow = Follow::curvature;
   /// No sample may lie farther from its piece, model units.
   double limit = std::numeric_limits<double>::infinity();
 };

@@ -36,9 +36,11 @@ PlaneInput read_plane_input(const SurfaceRef& surface) {
   return input;
 }
 
-PlaneDomain::PlaneDomain(const SurfaceRef& surface, const PlaneInput& input, const DensityOptions& density)
+PlaneDomain::PlaneDomain(const SurfaceRef& surface, const PlaneInput& input, const DensityOptions& density,
+                         Follow follow)
     : FaceDomain(surface.connectivity().n_faces(), input.umbilics, density,
-                 Density(density, surface.diagonal(), mean_curvature(surface, input.corner_tensors))) {
+                 Density(density, surface.diagonal(), mean_curvature(surface, input.corner_tensors)),
+                 follow) {
   make_nodes(surface, input);
   set_across(surface, faces_);
   std::vector<Vec3d> tensors;
@@ -128,8 +130,9 @@ double PlaneDomain::scale(const SurfacePoint& at) const {
 
 Vec3d PlaneDomain::tensor(const SurfacePoint& at) const {
   const Face& f = face(at.face);
-  return at.barycentric[0] * node(f, 0).tensor + at.barycentric[1] * node(f, 1).tensor +
-         at.barycentric[2] * node(f, 2).tensor;
+  return followed(at.barycentric[0] * node(f, 0).tensor + at.barycentric[1] * node(f, 1).tensor +
+                      at.barycentric[2] * node(f, 2).tensor,
+                  follow());
 }
 
 Vec3d PlaneDomain::tensor_ahead(const SurfacePoint& from, const Vec2d& vector) const {
@@ -214,7 +217,8 @@ Reach PlaneDomain::walk(const SurfacePoint& from, const Vec2d& vector) const {
 }
 
 std::vector<Vec2d> PlaneDomain::separatrices(const UmbilicPoint& umbilic, LineKind kind) const {
-  return separatrix_directions(field(face(umbilic.point.face)), umbilic.index, kind);
+  return separatrix_directions(field(face(umbilic.point.face)), umbilic, kind, follow(),
+                               scale(umbilic.point) * first_step(umbilic, kind));
 }
 
 namespace {

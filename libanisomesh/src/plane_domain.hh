@@ -23,7 +23,8 @@ PlaneInput read_plane_input(const SurfaceRef& surface);
 /// must not be flipped. The local frame is that of (u, v), scaled to model units.
 class PlaneDomain final : public FaceDomain {
  public:
-  PlaneDomain(const SurfaceRef& surface, const PlaneInput& input, const DensityOptions& density);
+  PlaneDomain(const SurfaceRef& surface, const PlaneInput& input, const DensityOptions& density,
+              Follow follow = Follow::curvature);
 
   Vec3d tensor(const SurfacePoint& at) const override;
   Vec3d tensor_ahead(const SurfacePoint& from, const Vec2d& vector) const override;

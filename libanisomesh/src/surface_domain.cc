@@ -57,9 +57,10 @@ SurfaceInput read_surface_input(const SurfaceRef& surface) {
   return input;
 }
 
-SurfaceDomain::SurfaceDomain(const SurfaceRef& surface, SurfaceInput input, const DensityOptions& density)
+SurfaceDomain::SurfaceDomain(const SurfaceRef& surface, SurfaceInput input, const DensityOptions& density,
+                             Follow follow)
     : FaceDomain(surface.connectivity().n_faces(), std::move(input.umbilics), density,
-                 Density(density, surface.diagonal(), mean_curvature(surface, input.corner_tensors))),
+                 Density(density, surface.diagonal(), mean_curvature(surface, input.corner_tensors)), follow),
       surface_(surface),
       unfolded_(surface, with_across(surface, faces_)),
       corner_tensors_(std::move(input.corner_tensors)) {
@@ -104,7 +105,7 @@ void SurfaceDomain::measure_fences() {
 
 Vec3d SurfaceDomain::tensor(const SurfacePoint& at) const {
   const auto& t = corner_tensors_[static_cast<size_t>(at.face.idx())];
-  return at.barycentric[0] * t[0] + at.barycentric[1] * t[1] + at.barycentric[2] * t[2];
+  return followed(at.barycentric[0] * t[0] + at.barycentric[1] * t[1] + at.barycentric[2] * t[2], follow());
 }
 
 Vec3d SurfaceDomain::tensor_ahead(const SurfacePoint& from, const Vec2d& vector) const {
@@ -127,7 +128,7 @@ double SurfaceDomain::turning_length(const SurfacePoint& at) const {
 }
 
 std::vector<Vec2d> SurfaceDomain::separatrices(const UmbilicPoint& umbilic, LineKind kind) const {
-  return separatrix_directions(field(umbilic.point.face), umbilic.index, kind);
+  return separatrix_directions(field(umbilic.point.face), umbilic, kind, follow(), first_step(umbilic, kind));
 }
 
 double SurfaceDomain::distance(const SurfacePoint& at, const Vec2d& place) const {

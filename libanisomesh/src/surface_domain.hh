@@ -32,7 +32,8 @@ SurfaceInput read_surface_input(const SurfaceRef& surface);
 /// edge as any other. What is near is measured on the surface.
 class SurfaceDomain final : public FaceDomain {
  public:
-  SurfaceDomain(const SurfaceRef& surface, SurfaceInput input, const DensityOptions& density);
+  SurfaceDomain(const SurfaceRef& surface, SurfaceInput input, const DensityOptions& density,
+                Follow follow = Follow::curvature);
 
   Vec3d tensor(const SurfacePoint& at) const override;
   Vec3d tensor_ahead(const SurfacePoint& from, const Vec2d& vector) const override;

@@ -80,7 +80,7 @@ TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& given, co
   TraceOptions options = given;
   if (options.seed_fraction == 0)
     options.seed_fraction = std::max(options.stop_fraction, seed_fraction_by_epsilon);
-  const auto domain = detail::make_domain(surface, options.density);
+  const auto domain = detail::make_domain(surface, options.density, options.follow);
   report_progress(progress, 0);
   BothKinds both(*domain, options, progress);
   both.run();
@@ -102,6 +102,7 @@ TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& given, co
   report_progress(progress, 1);
 
   auto& mesh = surface.connectivity();
+  mesh.property(provide_property(mesh, property::follow)) = static_cast<int>(options.follow);
   mesh.property(provide_property(mesh, property::epsilon)) = domain->epsilon();
   mesh.property(provide_property(mesh, property::cell_tolerance)) = cell_tolerance_by_epsilon;
   write_lines(surface, network);

@@ -36,8 +36,18 @@ LineNetwork read_lines(const SurfaceRef& surface);
 /// Writes the network to the mesh's properties (line_table, line_faces, line_barycentrics, isotropic_*).
 void write_lines(const SurfaceRef& surface, const LineNetwork& network);
 
+/// Which directions lines take where the principal curvatures have opposite signs.
+enum class Follow {
+  curvature,  ///< the principal ones [ACDLD03]
+  /// Both kinds are turned counter-clockwise by atan(sqrt(|smaller curvature| / |larger|)), at most 45
+  /// degrees: the kind that bends less then follows an asymptotic direction, along which the surface does not
+  /// bend. [D'Azevedo 2000]
+  min_abs
+};
+
 struct TraceOptions {
   DensityOptions density;
+  Follow follow = Follow::curvature;
   double stop_fraction =
       0.5;  ///< a line ends when nearer to one of its kind than this fraction of the spacing; (0, 1)
   /// None starts nearer to one of its kind than this fraction of the spacing; [stop_fraction, 1]. 0: 0.7

@@ -89,6 +89,8 @@ inline constexpr OnMesh<double> epsilon{"anisomesh:epsilon", "trace_lines"};
 /// How near the cells between the lines are to lie, in epsilons; build_polygons() follows it unless told
 /// otherwise.
 inline constexpr OnMesh<double> cell_tolerance{"anisomesh:cell_tolerance", "trace_lines"};
+/// The directions that the lines follow: a Follow (lines.hh). Where it is missing, those of curvature.
+inline constexpr OnMesh<int> follow{"anisomesh:follow", "trace_lines"};
 /// Per line: kind (0 min, 1 max), closed (0, 1), reason of its two ends (LineEnd), index of its first point:
 /// 5 ints a line.
 inline constexpr OnMesh<std::vector<int>> line_table{"anisomesh:line_table", "trace_lines"};

@@ -70,6 +70,17 @@ inline Vec3d rotated(const Vec3d& tensor, const Vec2d& rotation) {
   return {mean + alpha, beta, mean - alpha};
 }
 
+/// The tensor with its eigenvectors turned counter-clockwise by atan(sqrt(|smaller| / |larger eigenvalue|))
+/// where the eigenvalues have opposite signs, and as it is elsewhere: continuous, and what was the
+/// eigenvector of the eigenvalue nearer to 0 is a direction in which the given tensor is 0.
+inline Vec3d turned_to_asymptotic(const Vec3d& tensor) {
+  double min = 0, max = 0;
+  eigenvalues(tensor, min, max);
+  if (!(min < 0 && max > 0)) return tensor;
+  const double ratio = -min < max ? -min / max : max / -min;
+  return rotated(tensor, Vec2d(1, std::sqrt(ratio)) / std::sqrt(1 + ratio));
+}
+
 /// Frobenius norm.
 inline double frobenius_norm(const Vec3d& t) {
   return std::sqrt(t[0] * t[0] + 2 * t[1] * t[1] + t[2] * t[2]);
