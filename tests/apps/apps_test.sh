@@ -63,6 +63,25 @@ stages_give_the_same_bytes)
   cmp row.ply one.ply
   ;;
 
+fitted_stages_give_the_same_bytes)
+  # in the plane, with features, and on a closed surface; the fit also turns sides to what the lines follow
+  anisomesh-shapes -q wave --vertices 2000 --irregular -o wave.off
+  anisomesh-shapes -q octa-flower --vertices 2000 --irregular -o flower.om
+  anisomesh-shapes -q torus --vertices 2000 -o torus.off
+  for run in "wave.off|--target-faces 300|--fit" "wave.off|--target-vertices 300 --follow min-abs|--fit --balance 3" \
+    "flower.om|--epsilon 0.002|--fit --fit-passes 2 --balance 1" "torus.off|--target-faces 200|--fit --balance 0"; do
+    IFS='|' read -r input density fit <<<"$run"
+    TRACE=$density MESH=$fit
+    in_a_row "$input" row.om
+    # shellcheck disable=SC2086
+    anisomesh-remesh -q "$input" -o one.om $density $fit
+    cmp row.om one.om || fail "$run"
+    # shellcheck disable=SC2086
+    anisomesh-remesh -q "$input" -o plain.om $density
+    ! cmp -s plain.om one.om || fail "$run does nothing"
+  done
+  ;;
+
 threads_change_nothing)
   # enough vertices that the sparse solver works in blocks; its threads, where it has any, are not oneTBB's
   anisomesh-shapes -q saddle --vertices 8000 --irregular -o saddle.off
