@@ -253,6 +253,30 @@ TEST_CASE("folded faces are counted", "[compare]") {
   }
 }
 
+TEST_CASE("faces that cross or overlap others are counted", "[compare]") {
+  auto reference = triangulated(quad_grid(10, 10, flat));
+  auto clean = quad_grid(4, 4, flat);
+  CHECK(compare(reference, clean).self_intersecting_faces == 0);
+  SECTION("a flat sheet that lies over itself in part") {
+    // Three quads on the left, the last column of corners moved back over the third.
+    auto result = quad_grid(4, 1, [](double u, double v) { return Vec3d(u == 1 ? 0.6 : u, v, 0); });
+    const auto c = compare(reference, result);
+    CHECK(c.self_intersecting_faces == 2);
+    CHECK(c.to_reference.hausdorff < 1e-12);
+  }
+  SECTION("two squares that cross, and one apart") {
+    auto result = polygons({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.2, -1}, {0.5, 0.8, -1},
+                            {0.5, 0.8, 1}, {0.5, 0.2, 1}, {2, 0, 0}, {3, 0, 0}, {3, 1, 0}},
+                           {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10}});
+    CHECK(compare(reference, result).self_intersecting_faces == 2);
+  }
+  SECTION("faces that only share corners at the same place do not count") {
+    auto result = polygons({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0.5}, {0, 1, 0}},
+                           {{0, 1, 2}, {3, 4, 5}});
+    CHECK(compare(reference, result).self_intersecting_faces == 0);
+  }
+}
+
 TEST_CASE("both sides of a thin sheet are right, wherever the nearest point lies", "[compare]") {
   // A sheet as thin as 1/200 of its width, closed over its upper rim; the result is coarser and off by more
   // than the sheet is thick, so that nearest points are on the wrong side.

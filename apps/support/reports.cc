@@ -193,6 +193,7 @@ Json to_json(const Comparison& c) {
           {"max_planarity", c.max_planarity},
           {"concave_faces", c.concave_faces},
           {"folded_faces", c.folded_faces},
+          {"self_intersecting_faces", c.self_intersecting_faces},
           {"degenerate_faces", c.degenerate_faces},
           {"non_manifold_edges", c.non_manifold_edges},
           {"non_manifold_vertices", c.non_manifold_vertices},

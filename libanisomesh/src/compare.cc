@@ -103,6 +103,7 @@ Comparison compare(const SurfaceRef& reference, OpenMesh::PolyMesh& result, cons
   measure_distances(surface, soup, options, progress, comparison, vertex_errors, face_errors);
   measure_faces(soup, comparison);
   measure_folds(surface, soup, comparison);
+  measure_intersections(soup, comparison);
   measure_alignment(surface, soup, result, options.anisotropy_threshold, comparison);
   measure_topology(reference.connectivity(), soup, result, comparison);
   report_progress(progress, 1);

@@ -40,12 +40,17 @@ struct PolygonSoup {
 std::vector<Triangle> triangulate_polygon(const std::vector<Vec3d>& corners, const Vec3d& normal,
                                           FaceDiagonal diagonal);
 
+/// Vertices at the very same place get the same number. OpenMesh duplicates vertices where a file is not
+/// manifold; put together again, the file shows as it was.
+std::vector<int> merge_by_place(const std::vector<Vec3d>& points);
+
 // Each part fills its own fields of the comparison.
 void measure_distances(const ReferenceSurface& reference, const PolygonSoup& result,
                        const CompareOptions& options, const Progress& progress, Comparison& comparison,
                        std::vector<double>& vertex_errors, std::vector<double>& face_errors);
 void measure_faces(const PolygonSoup& result, Comparison& comparison);
 void measure_folds(const ReferenceSurface& reference, const PolygonSoup& result, Comparison& comparison);
+void measure_intersections(const PolygonSoup& result, Comparison& comparison);
 void measure_alignment(const ReferenceSurface& reference, const PolygonSoup& result,
                        const OpenMesh::PolyMesh& mesh, double anisotropy_threshold, Comparison& comparison);
 void measure_topology(const OpenMesh::PolyConnectivity& reference, const PolygonSoup& result,

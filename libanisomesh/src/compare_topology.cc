@@ -43,24 +43,6 @@ Topology topology_of(const OpenMesh::PolyConnectivity& mesh) {
   return topology;
 }
 
-/// Vertices at the very same place get the same number. OpenMesh duplicates vertices where a file is not
-/// manifold; put together again, the file shows as it was.
-std::vector<int> merge_by_place(const std::vector<Vec3d>& points) {
-  std::vector<int> order(points.size()), merged(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](int i) { return points[static_cast<size_t>(i)]; };
-  const auto less = [&](int i, int j) {
-    const Vec3d a = key(i), b = key(j);
-    return std::tie(a[0], a[1], a[2], i) < std::tie(b[0], b[1], b[2], j);
-  };
-  std::sort(order.begin(), order.end(), less);
-  for (size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
-    merged[static_cast<size_t>(order[i])] = same ? merged[static_cast<size_t>(order[i - 1])] : order[i];
-  }
-  return merged;
-}
-
 /// Edges with more than two faces, or whose two faces run along them in the same direction.
 size_t count_non_manifold_edges(const std::vector<std::vector<int>>& faces) {
   std::map<std::pair<int, int>, std::pair<int, int>> uses;  // forward and backward
@@ -133,6 +115,22 @@ size_t count_t_junctions(const PolygonSoup& result, const OpenMesh::PolyMesh& me
 }
 
 }  // namespace
+
+std::vector<int> merge_by_place(const std::vector<Vec3d>& points) {
+  std::vector<int> order(points.size()), merged(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](int i) { return points[static_cast<size_t>(i)]; };
+  const auto less = [&](int i, int j) {
+    const Vec3d a = key(i), b = key(j);
+    return std::tie(a[0], a[1], a[2], i) < std::tie(b[0], b[1], b[2], j);
+  };
+  std::sort(order.begin(), order.end(), less);
+  for (size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
+    merged[static_cast<size_t>(order[i])] = same ? merged[static_cast<size_t>(order[i - 1])] : order[i];
+  }
+  return merged;
+}
 
 void measure_topology(const OpenMesh::PolyConnectivity& reference, const PolygonSoup& result,
                       const OpenMesh::PolyMesh& mesh, Comparison& comparison) {

@@ -1,5 +1,7 @@
 #include "drawing.hh"
 
+#include <algorithm>
+
 #include "anisomesh/properties.hh"
 #include "mesh_embedding.hh"
 #include "near_locator.hh"
@@ -38,7 +40,7 @@ class SurfaceDrawing final : public Drawing {
  public:
   SurfaceDrawing(const SurfaceRef& surface, const SurfaceNormals& normals, const LineNetwork& lines,
                  double corner_angle, double tolerance)
-      : surface_(surface), locator_(surface), tolerance_(tolerance) {
+      : surface_(surface), lines_(lines), corner_angle_(corner_angle), locator_(surface), tolerance_(tolerance) {
     const Overlay overlay = overlay_lines(surface, lines, corner_angle);
     network_ = network_of(surface, normals, overlay);
     embedding_ = std::make_unique<MeshEmbedding>(surface, overlay, network_);
@@ -48,7 +50,7 @@ class SurfaceDrawing final : public Drawing {
   const NetworkGraph& network() const override { return network_; }
   std::vector<Cell> cells(NetworkGraph& network, const DecimationOptions& options, bool probes,
                           DecimationReport& report) const override {
-    MeshEmbedding embedding = *embedding_;
+    MeshEmbedding embedding = embedding_for(network);
     report = decimate(network, embedding, options);
     embedding.coarsen(network, tolerance_);
     embedding.flip(network);
@@ -56,7 +58,18 @@ class SurfaceDrawing final : public Drawing {
   }
 
  private:
+  // Coarsened already, but for a network that is to keep vertices which have gone.
+  MeshEmbedding embedding_for(const NetworkGraph& network) const {
+    const auto is_kept = [](double share) { return share <= MeshEmbedding::kept_share; };
+    if (std::none_of(network.share.begin(), network.share.end(), is_kept)) return *embedding_;
+    MeshEmbedding embedding(surface_, overlay_lines(surface_, lines_, corner_angle_), network);
+    embedding.coarsen(network, tolerance_);
+    return embedding;
+  }
+
   const SurfaceRef& surface_;
+  const LineNetwork& lines_;
+  double corner_angle_;
   NearLocator locator_;
   double tolerance_;
   NetworkGraph network_;

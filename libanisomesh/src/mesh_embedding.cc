@@ -95,7 +95,7 @@ bool MeshEmbedding::collapse(VertexHandle gone, VertexHandle keep, Care care) {
   if (!h.is_valid() || !is_topology_kept(h)) return false;
   if (care != Care::topology && !is_shape_kept(h, care)) return false;
   lay_flat(gone);
-  if (!is_surface_kept(keep, care)) return false;
+  if (!is_surface_kept(gone, keep, care)) return false;
   join(h);
   return true;
 }
@@ -213,9 +213,12 @@ double MeshEmbedding::lowest_cosine(VertexHandle gone, VertexHandle keep) const 
 void MeshEmbedding::coarsen(const NetworkGraph& network, double tolerance) {
   tolerance_ = tolerance;
   std::vector<int> waiting;
+  const auto is_kept = [&](VertexHandle v) {
+    return v.idx() < vertices_ && !network.share.empty() && network.share[at(v.idx())] <= kept_share;
+  };
   for (const auto v : mesh_.all_vertices())
     if (!mesh_.status(v).deleted() && !mesh_.is_isolated(v) && network.graph.degree(v.idx()) == 0 &&
-        !network.fixed[at(v.idx())])
+        !network.fixed[at(v.idx())] && !is_kept(v))
       waiting.push_back(v.idx());
   std::vector<int> touched(mesh_.n_vertices(), -1);
   int pass = 0;

@@ -26,6 +26,8 @@ using OverlayMesh = OpenMesh::TriMesh_ArrayKernelT<OverlayTraits>;
 /// the map from the surface to the triangles. Nodes keep their index. Copies are independent.
 class MeshEmbedding final : public Embedding {
  public:
+  static constexpr double kept_share = 1.0 / 16;
+
   MeshEmbedding(const SurfaceRef& surface, const Overlay& overlay, const NetworkGraph& network);
 
   bool straighten(int a, int node, int b) override;
@@ -33,7 +35,8 @@ class MeshEmbedding final : public Embedding {
   void drop(int node) override;
 
   /// Takes out the nodes that no edge of the network leads to and that need not stay, as far as the topology
-  /// allows and what is pinned stays within the tolerance (model units) of the triangles.
+  /// allows and what is pinned stays within the tolerance (model units) of the triangles; but no vertex of the
+  /// surface where the share of the tolerances that holds is as small as kept_share.
   void coarsen(const NetworkGraph& network, double tolerance);
 
   /// Flips edges that are not the network's until the triangles are well shaped (Delaunay's rule, over the
@@ -97,7 +100,7 @@ class MeshEmbedding final : public Embedding {
   Landing land(const FlatStar::Point& x, const std::vector<Candidate>& candidates) const;
   double agreement(const std::vector<Candidate>& candidates, bool vertices) const;
   std::vector<Candidate> fan_to(OpenMesh::VertexHandle keep) const;
-  bool is_surface_kept(OpenMesh::VertexHandle keep, Care care) const;
+  bool is_surface_kept(OpenMesh::VertexHandle gone, OpenMesh::VertexHandle keep, Care care) const;
   bool is_near(const std::vector<Candidate>& candidates) const;
   void add_points(OpenMesh::FaceHandle f);
   void pin_again(const std::vector<Candidate>& candidates);

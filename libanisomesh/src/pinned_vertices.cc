@@ -225,14 +225,13 @@ bool MeshEmbedding::is_near(const std::vector<Candidate>& candidates) const {
   });
 }
 
-// Whether the star, all of it joined to `keep`, is still along the surface and near to it. Where only the
-// topology is cared for, a bound on the distance would leave vertices that hold triangles across a bay of a
-// flat face.
-bool MeshEmbedding::is_surface_kept(VertexHandle keep, Care care) const {
+// Whether the star, all of it joined to `keep`, is still along the surface and near to it. Where a triangle was
+// turned over before, none may be afterwards: in a flat place nothing else would tell.
+bool MeshEmbedding::is_surface_kept(VertexHandle gone, VertexHandle keep, Care care) const {
   if (!star_.has_samples && care != Care::topology && std::isinf(tolerance_)) return true;
   const auto fan = fan_to(keep);
-  if (care == Care::topology) return agreement(fan, true) > 0;
-  if (star_.has_samples && agreement(fan, false) <= least_agreement) return false;
+  if (star_.has_samples && care != Care::topology && agreement(fan, false) <= least_agreement) return false;
+  if (care == Care::topology && !(agreement(fan, true) > 0 && lowest_cosine(gone, keep) > 0)) return false;
   return std::isinf(tolerance_) || is_near(fan);
 }
 

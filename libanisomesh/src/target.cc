@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <string>
 
+#include "anisomesh/errors.hh"
 #include "anisomesh/flatten.hh"
 #include "anisomesh/properties.hh"
 #include "anisomesh/remesh.hh"
@@ -21,6 +23,12 @@ constexpr double kFirstRatio = 1.8;
 constexpr double kMet = 0.1;  ///< a count within this fraction of the target meets it
 /// A target buys most where lines leave wide gaps alone and samples go where the surface is farthest.
 constexpr double kSeedFraction = 0.8, kCellTolerance = 4;
+/// Where polygons cannot be made, those of an epsilon so much smaller often can, a few times.
+constexpr double kNextAfterRefusal = 0.85;
+constexpr int kMostRefusals = 4;
+/// A count that falls by a smaller power of epsilon is not the density's any more: features, the border or what
+/// the tolerances ask for need as many, and a larger epsilon only spoils what is there.
+constexpr double kStalled = 0.2;
 constexpr double kLowest = 1e-8, kHighest = 0.5;  ///< epsilon, fraction of the diagonal
 
 /// The number of crossings that the density asks for: one for each rectangle of the two spacings.
@@ -127,6 +135,14 @@ double next_epsilon(const std::vector<Trial>& attempts, const CrossingModel& mod
   return model.epsilon(count_there * std::exp(-push * nearest.log_ratio));
 }
 
+/// Whether the last step to a larger epsilon brought next to nothing, though there are still too many.
+bool is_stalled(const std::vector<Trial>& attempts) {
+  if (attempts.size() < 2) return false;
+  const Trial &last = attempts.back(), &before = attempts[attempts.size() - 2];
+  const double step = last.log_epsilon - before.log_epsilon;
+  return last.log_ratio > 0 && step > 0 && before.log_ratio - last.log_ratio < kStalled * step;
+}
+
 }  // namespace
 
 void TargetOptions::validate() const {
@@ -180,9 +196,20 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   OpenMesh::PolyMesh best;
   TraceAndMeshReport of_best;
   LineNetwork lines_of_best;
-  double best_off = 0;
-  for (int i = 1;; ++i) {
-    OpenMesh::PolyMesh result = run(1 - std::pow(0.6, i - 1), 1 - std::pow(0.6, i));
+  double best_off = std::numeric_limits<double>::infinity();
+  for (int i = 1, refusals = 0;; ++i) {
+    OpenMesh::PolyMesh result;
+    try {
+      result = run(1 - std::pow(0.6, i - 1), 1 - std::pow(0.6, i));
+    } catch (const CannotProcess&) {
+      done.attempts = i;
+      if (++refusals > kMostRefusals || i >= target.max_attempts) {
+        if (std::isfinite(best_off)) break;
+        throw;
+      }
+      options.density.epsilon_fraction *= kNextAfterRefusal;
+      continue;
+    }
     done.tried.push_back(
         {options.density.epsilon_fraction, target.target_faces > 0 ? result.n_faces() : result.n_vertices()});
     const double count = static_cast<double>(done.tried.back().count);
@@ -191,7 +218,8 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     done.attempts = i;
     done.target_met = off <= kMet;
     if (off <= target.tolerance || (i >= 3 && off <= kMet)) return finish(std::move(result));
-    if (i == 1 || off < best_off) {
+    const bool stalled = is_stalled(attempts);
+    if (off < best_off && !stalled) {
       best = std::move(result);
       best_off = off;
       of_best = done;
@@ -199,7 +227,7 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     }
     const double next = next_epsilon(attempts, model);
     const bool stuck = std::abs(std::log(next) - attempts.back().log_epsilon) < 1e-3;
-    if (i >= target.max_attempts || stuck || (i >= 3 && best_off <= kMet)) break;
+    if (i >= target.max_attempts || stuck || stalled || (i >= 3 && best_off <= kMet)) break;
     options.density.epsilon_fraction = next;
   }
   of_best.attempts = done.attempts;

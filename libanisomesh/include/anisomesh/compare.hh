@@ -45,6 +45,7 @@ struct Comparison {
   size_t concave_faces = 0;  ///< a corner turns back by more than 5 degrees in the plane of best fit
   size_t folded_faces =
       0;  ///< normal against that of the reference beside it, or two neighbours folded onto each other
+  size_t self_intersecting_faces = 0;  ///< cross, overlap or touch a face beyond the corners and sides shared
   size_t degenerate_faces = 0;
   size_t non_manifold_edges = 0, non_manifold_vertices = 0;
   size_t t_junctions = 0;  ///< vertices that lie on an edge they are no end of
