@@ -265,8 +265,17 @@ TEST_CASE("faces that cross or overlap others are counted", "[compare]") {
     CHECK(c.to_reference.hausdorff < 1e-12);
   }
   SECTION("two squares that cross, and one apart") {
-    auto result = polygons({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.2, -1}, {0.5, 0.8, -1},
-                            {0.5, 0.8, 1}, {0.5, 0.2, 1}, {2, 0, 0}, {3, 0, 0}, {3, 1, 0}},
+    auto result = polygons({{0, 0, 0},
+                            {1, 0, 0},
+                            {1, 1, 0},
+                            {0, 1, 0},
+                            {0.5, 0.2, -1},
+                            {0.5, 0.8, -1},
+                            {0.5, 0.8, 1},
+                            {0.5, 0.2, 1},
+                            {2, 0, 0},
+                            {3, 0, 0},
+                            {3, 1, 0}},
                            {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10}});
     CHECK(compare(reference, result).self_intersecting_faces == 2);
   }

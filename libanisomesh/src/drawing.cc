@@ -40,7 +40,11 @@ class SurfaceDrawing final : public Drawing {
  public:
   SurfaceDrawing(const SurfaceRef& surface, const SurfaceNormals& normals, const LineNetwork& lines,
                  double corner_angle, double tolerance)
-      : surface_(surface), lines_(lines), corner_angle_(corner_angle), locator_(surface), tolerance_(tolerance) {
+      : surface_(surface),
+        lines_(lines),
+        corner_angle_(corner_angle),
+        locator_(surface),
+        tolerance_(tolerance) {
     const Overlay overlay = overlay_lines(surface, lines, corner_angle);
     network_ = network_of(surface, normals, overlay);
     embedding_ = std::make_unique<MeshEmbedding>(surface, overlay, network_);

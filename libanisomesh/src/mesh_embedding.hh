@@ -35,8 +35,8 @@ class MeshEmbedding final : public Embedding {
   void drop(int node) override;
 
   /// Takes out the nodes that no edge of the network leads to and that need not stay, as far as the topology
-  /// allows and what is pinned stays within the tolerance (model units) of the triangles; but no vertex of the
-  /// surface where the share of the tolerances that holds is as small as kept_share.
+  /// allows and what is pinned stays within the tolerance (model units) of the triangles; but no vertex of
+  /// the surface where the share of the tolerances that holds is as small as kept_share.
   void coarsen(const NetworkGraph& network, double tolerance);
 
   /// Flips edges that are not the network's until the triangles are well shaped (Delaunay's rule, over the

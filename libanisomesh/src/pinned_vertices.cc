@@ -225,8 +225,8 @@ bool MeshEmbedding::is_near(const std::vector<Candidate>& candidates) const {
   });
 }
 
-// Whether the star, all of it joined to `keep`, is still along the surface and near to it. Where a triangle was
-// turned over before, none may be afterwards: in a flat place nothing else would tell.
+// Whether the star, all of it joined to `keep`, is still along the surface and near to it. Where a triangle
+// was turned over before, none may be afterwards: in a flat place nothing else would tell.
 bool MeshEmbedding::is_surface_kept(VertexHandle gone, VertexHandle keep, Care care) const {
   if (!star_.has_samples && care != Care::topology && std::isinf(tolerance_)) return true;
   const auto fan = fan_to(keep);

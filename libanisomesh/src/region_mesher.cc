@@ -31,9 +31,9 @@ class RegionMesher {
         corners_(region.corners),
         judge_(judge),
         options_(options),
-        tolerance_(region.at_feature
-                       ? std::max(region.share, least_share) * std::min(options.cell_tolerance, options.feature_cell_tolerance)
-                       : options.cell_tolerance) {}
+        tolerance_(region.at_feature ? std::max(region.share, least_share) *
+                                           std::min(options.cell_tolerance, options.feature_cell_tolerance)
+                                     : options.cell_tolerance) {}
 
   RegionPolygons run();
 
@@ -205,8 +205,7 @@ RegionPolygons RegionMesher::run() {
     for (int i = n - static_cast<int>(region_.isotropic); i < n; ++i) triangulation.insert(i);
   if (options_.flip_edges) flip_to_lower_cost(triangulation);
   const size_t most = std::max(max_added, region_.isotropic);
-  while (bounded && result.added.size() < most &&
-         add_worst(triangulation, result))
+  while (bounded && result.added.size() < most && add_worst(triangulation, result))
     if (options_.flip_edges) flip_to_lower_cost(triangulation);
   result.polygons = pieces_of(triangulation);
   return result;

@@ -26,8 +26,8 @@ constexpr double kSeedFraction = 0.8, kCellTolerance = 4;
 /// Where polygons cannot be made, those of an epsilon so much smaller often can, a few times.
 constexpr double kNextAfterRefusal = 0.85;
 constexpr int kMostRefusals = 4;
-/// A count that falls by a smaller power of epsilon is not the density's any more: features, the border or what
-/// the tolerances ask for need as many, and a larger epsilon only spoils what is there.
+/// A count that falls by a smaller power of epsilon is not the density's any more: features, the border or
+/// what the tolerances ask for need as many, and a larger epsilon only spoils what is there.
 constexpr double kStalled = 0.2;
 constexpr double kLowest = 1e-8, kHighest = 0.5;  ///< epsilon, fraction of the diagonal
 

@@ -49,8 +49,7 @@ bool Soup::have_overlap(int t, int u) const {
   }
   const Point &a = corner(t, of_t[0]), &b = corner(t, of_t[1]);
   const Point &left = corner(t, 3 - of_t[0] - of_t[1]), &right = corner(u, 3 - of_u[0] - of_u[1]);
-  return CGAL::coplanar(a, b, left, right) &&
-         CGAL::coplanar_orientation(a, b, left, right) == CGAL::POSITIVE;
+  return CGAL::coplanar(a, b, left, right) && CGAL::coplanar_orientation(a, b, left, right) == CGAL::POSITIVE;
 }
 
 }  // namespace
