@@ -12,7 +12,6 @@
 // the target. Exits 1 if there is one, 77 if the meshes are not there. A refusal is none, and is listed with
 // its reason.
 #include <algorithm>
-#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <string>
@@ -22,6 +21,7 @@
 #include "anisomesh/features.hh"
 #include "anisomesh/properties.hh"
 #include "anisomesh/remesh.hh"
+#include "arguments.hh"
 #include "bench.hh"
 
 using namespace anisomesh;
@@ -136,20 +136,12 @@ void run(const std::filesystem::path& path, const Settings& settings, bench::Bar
 
 int main(int argc, char** argv) {
   Settings settings;
-  std::vector<std::string> names;
-  for (int i = 1; i < argc; ++i) {
-    const bool more = i + 1 < argc;
-    if (more && std::strcmp(argv[i], "--target") == 0)
-      settings.target = std::stoul(argv[++i]);
-    else if (more && std::strcmp(argv[i], "--feature-angle") == 0)
-      settings.feature_angle = std::stod(argv[++i]);
-    else if (more && std::strcmp(argv[i], "--largest") == 0)
-      settings.largest = std::stoul(argv[++i]);
-    else if (more && std::strcmp(argv[i], "--domain") == 0)
-      settings.domain = domain_named(argv[++i]);
-    else
-      names.emplace_back(argv[i]);
-  }
+  bench::Arguments arguments;
+  arguments.number("--target", settings.target);
+  arguments.number("--feature-angle", settings.feature_angle);
+  arguments.number("--largest", settings.largest);
+  arguments.value("--domain", [&](const std::string& name) { settings.domain = domain_named(name); });
+  const auto names = arguments.read(argc, argv);
   const char* folder = std::getenv("ANISOMESH_DATA");
   if (!folder || !std::filesystem::is_directory(folder)) {
     std::fprintf(stderr, "any_surface: set ANISOMESH_DATA to the unpacked data of libcgal-demo\n");

@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <string>
 #include <vector>
@@ -20,6 +19,7 @@
 #include "anisomesh/charts.hh"
 #include "anisomesh/properties.hh"
 #include "anisomesh/remesh.hh"
+#include "arguments.hh"
 #include "bench.hh"
 
 using namespace anisomesh;
@@ -191,18 +191,11 @@ void compare_bands(const std::string& name, const std::string& path, const Setti
 
 int main(int argc, char** argv) {
   Settings settings;
-  std::vector<std::string> names;
-  for (int i = 1; i < argc; ++i) {
-    const bool more = i + 1 < argc;
-    if (more && std::strcmp(argv[i], "--target") == 0)
-      settings.target = std::stoul(argv[++i]);
-    else if (more && std::strcmp(argv[i], "--feature-angle") == 0)
-      settings.feature_angle = std::stod(argv[++i]);
-    else if (std::strcmp(argv[i], "--seams") == 0)
-      settings.seams = true;
-    else
-      names.emplace_back(argv[i]);
-  }
+  bench::Arguments arguments;
+  arguments.number("--target", settings.target);
+  arguments.number("--feature-angle", settings.feature_angle);
+  arguments.flag("--seams", settings.seams);
+  auto names = arguments.read(argc, argv);
   if (names.empty()) names = ten_meshes();
   if (settings.seams)
     std::printf(

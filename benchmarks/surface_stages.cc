@@ -7,7 +7,6 @@
 // closed, ends for want of room, lines that the random coverage check started, and the seconds of each stage.
 // With --plane the meshes are flattened, for comparison. Exits 1 if a mesh could not be processed.
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "anisomesh/lines.hh"
 #include "anisomesh/smoothing.hh"
 #include "anisomesh/umbilics.hh"
+#include "arguments.hh"
 #include "bench.hh"
 
 using namespace anisomesh;
@@ -60,17 +60,11 @@ void print_row(const std::string& path, const Settings& settings) {
 
 int main(int argc, char* argv[]) {
   Settings settings;
-  std::vector<std::string> paths;
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--plane") == 0)
-      settings.plane = true;
-    else if (std::strcmp(argv[i], "--epsilon") == 0 && i + 1 < argc)
-      settings.epsilon = std::atof(argv[++i]);
-    else if (std::strcmp(argv[i], "--feature-angle") == 0 && i + 1 < argc)
-      settings.feature_angle = std::atof(argv[++i]);
-    else
-      paths.emplace_back(argv[i]);
-  }
+  bench::Arguments arguments;
+  arguments.flag("--plane", settings.plane);
+  arguments.number("--epsilon", settings.epsilon);
+  arguments.number("--feature-angle", settings.feature_angle);
+  const auto paths = arguments.read(argc, argv);
   std::printf(
       "| mesh | triangles | features | index sum | turning | Euler | wedges + trisectors | min + max lines | "
       "closed | too close | step limit | by coverage | samples |%s curvature s | smoothing s | umbilics s | "

@@ -252,6 +252,47 @@ TEST_CASE("umbilics in charts: as many as the topology asks for", "[charts]") {
   }
 }
 
+TEST_CASE("umbilics in charts add up where charts turn by more than a full turn at a vertex", "[charts]") {
+  // A crown: around its first vertex the angles of the triangles add up to 7 half turns; each of them is a
+  // chart.
+  constexpr int teeth = 5;
+  OpenMesh::TriMesh mesh;
+  mesh.request_vertex_status();
+  mesh.request_edge_status();
+  mesh.request_face_status();
+  const auto top = mesh.add_vertex({0, 0, 0}), bottom = mesh.add_vertex({0, 0, -6});
+  std::vector<OpenMesh::VertexHandle> ring;
+  for (int k = 0; k < 2 * teeth; ++k) {
+    const double angle = 3.14159265358979 * k / teeth;
+    ring.push_back(mesh.add_vertex({std::cos(angle), std::sin(angle), k % 2 == 0 ? 2.0 : -2.0}));
+  }
+  for (size_t k = 0; k < ring.size(); ++k) {
+    const auto next = ring[(k + 1) % ring.size()];
+    mesh.add_face(top, ring[k], next);
+    mesh.add_face(bottom, next, ring[k]);
+  }
+  estimate_curvature(mesh);
+  const auto chart = provide_property(mesh, property::chart);
+  for (const auto f : mesh.faces()) mesh.property(chart, f) = f.idx();
+  ChartOptions keep;
+  keep.keep_charts = true;
+  REQUIRE(cut_into_charts(mesh, keep).charts == mesh.n_faces());
+  smooth_tensors(mesh);
+  const auto charts = chart_field(mesh, surface_field(mesh, read_surface_tensors(mesh)));
+  const auto bends = seam_bends(charts);
+  std::vector<double> around(mesh.n_vertices(), 0), angles(mesh.n_vertices(), 0);
+  for (int side = 0; side < static_cast<int>(bends.size()); ++side) {
+    const auto v = static_cast<size_t>(charts.sides.vertex[static_cast<size_t>(side)]);
+    around[v] += bends[static_cast<size_t>(side)];
+    angles[v] += std::arg(-charts.along(previous_side(side)) / charts.along(side));
+  }
+  CHECK(angles[0] > 6 * 3.14159265358979);
+  for (size_t v = 0; v < around.size(); ++v) CHECK(around[v] + angles[v] == Approx(2 * 3.14159265358979));
+  const auto found = find_umbilics(mesh);
+  CHECK(found.index_sum == 2);
+  CHECK(found.border_turning == Approx(2));
+}
+
 TEST_CASE("lines do not end at seams", "[charts]") {
   auto mesh = prepared("torus", 6000);
   find_umbilics(mesh);

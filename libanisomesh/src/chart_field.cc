@@ -1,7 +1,9 @@
 #include "chart_field.hh"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <map>
 
 #include "anisomesh/properties.hh"
 #include "numerics/tensor2d.hh"
@@ -51,10 +53,7 @@ class Turning {
     if (twin < 0 || charts_.sides.feature[static_cast<size_t>(side)]) return -1;
     return left ? twin : next_side(twin);
   }
-  Vec2d place(int corner) const {
-    return charts_.corner[static_cast<size_t>(corner / 3)][static_cast<size_t>(corner % 3)];
-  }
-  Turn along(int side) const { return complex(place(next_side(side)) - place(side)); }
+  Turn along(int side) const { return charts_.along(side); }
   Turn weighted(int corner) const {
     return weight_[static_cast<size_t>(corner / 3)] * turn_[static_cast<size_t>(corner)];
   }
@@ -114,6 +113,11 @@ Vec2d ChartField::axis(size_t face) const {
   return length > 0 ? Vec2d(edge / length) : Vec2d(1, 0);
 }
 
+Turn ChartField::along(int side) const {
+  const auto& c = corner[static_cast<size_t>(side / 3)];
+  return complex(c[static_cast<size_t>(next_side(side) % 3)] - c[static_cast<size_t>(side % 3)]);
+}
+
 ChartField chart_field(const SurfaceRef& surface, const SurfaceField& field) {
   const auto& mesh = surface.connectivity();
   const auto number = require_property(mesh, property::chart);
@@ -149,6 +153,67 @@ ChartField chart_field(const SurfaceRef& surface, const SurfaceField& field) {
           rotated(field.tensor[static_cast<size_t>(field.cut.corner_node[f][i])], charts.turn[f][i]);
     }
   return charts;
+}
+
+namespace {
+
+// What is around a vertex on seams.
+struct SeamStar {
+  double bends = 0, angles = 0;  // sums, radians
+  bool closed = true;            // neither on a border nor on a feature
+  std::vector<int> seams;        // sides that leave it
+};
+
+std::map<int, SeamStar> seam_stars(const ChartField& charts, const std::vector<double>& bends) {
+  const auto& sides = charts.sides;
+  std::map<int, SeamStar> stars;
+  for (int side = 0; side < static_cast<int>(bends.size()); ++side)
+    if (charts.seam[static_cast<size_t>(side)])
+      stars[sides.vertex[static_cast<size_t>(side)]].seams.push_back(side);
+  for (int side = 0; side < static_cast<int>(bends.size()); ++side) {
+    const auto found = stars.find(sides.vertex[static_cast<size_t>(side)]);
+    if (found == stars.end()) continue;
+    SeamStar& star = found->second;
+    const Turn ahead = charts.along(side), back = -charts.along(previous_side(side));
+    star.angles += std::arg(back * std::conj(ahead));
+    star.bends += bends[static_cast<size_t>(side)];
+    for (const int spoke : {side, previous_side(side)})
+      if (sides.twin[static_cast<size_t>(spoke)] < 0 || sides.feature[static_cast<size_t>(spoke)])
+        star.closed = false;
+  }
+  return stars;
+}
+
+}  // namespace
+
+std::vector<double> seam_bends(const ChartField& charts) {
+  constexpr double kFullTurn = 2 * 3.14159265358979323846;
+  const auto frame = [&](int c) {
+    return complex(charts.turn[static_cast<size_t>(c / 3)][static_cast<size_t>(c % 3)]);
+  };
+  std::vector<double> bends(charts.seam.size(), 0.0);
+  for (int side = 0; side < static_cast<int>(bends.size()); ++side) {
+    const int twin = charts.sides.twin[static_cast<size_t>(side)];
+    if (!charts.seam[static_cast<size_t>(side)] || charts.sides.feature[static_cast<size_t>(side)]) continue;
+    const Turn frames = frame(next_side(twin)) * std::conj(frame(side));
+    const Turn seam = -charts.along(twin) * std::conj(charts.along(side));
+    bends[static_cast<size_t>(side)] = std::arg(frames * std::conj(seam));
+  }
+  // Each is known up to full turns. Where charts turn far, more than half a turn is wanted of one of them.
+  for (const auto& [vertex, star] : seam_stars(charts, bends)) {
+    if (!star.closed) continue;
+    const auto extra = std::lround((star.bends + star.angles) / kFullTurn) - 1;
+    const auto less = [&](int a, int b) {
+      return bends[static_cast<size_t>(a)] < bends[static_cast<size_t>(b)];
+    };
+    for (long k = std::abs(extra); k > 0; --k) {
+      const auto& seams = star.seams;
+      const int side = extra > 0 ? *std::max_element(seams.begin(), seams.end(), less)
+                                 : *std::min_element(seams.begin(), seams.end(), less);
+      bends[static_cast<size_t>(side)] += extra > 0 ? -kFullTurn : kFullTurn;
+    }
+  }
+  return bends;
 }
 
 }  // namespace anisomesh::detail

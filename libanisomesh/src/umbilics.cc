@@ -90,22 +90,17 @@ SurfaceUmbilics umbilics_in_plane(const SurfaceRef& surface) {
 SurfaceUmbilics umbilics_in_charts(const SurfaceRef& surface) {
   const auto charts = chart_field(surface, surface_field(surface, read_surface_tensors(surface)));
   const auto deviators = corner_deviators(surface, charts.tensor);
-  auto result = umbilics_in_planes(deviators);
+  // Where there is none the field has a direction all the same, one for all charts that meet there.
+  auto directions = deviators;
+  for (size_t f = 0; f < directions.size(); ++f)
+    for (size_t i = 0; i < 3; ++i)
+      if (directions[f][i] == Vec2d(0, 0))
+        directions[f][i] = deviator(rotated(Vec3d(1, 0, -1), charts.turn[f][i]));
+  const auto bends = seam_bends(charts);
+  auto result = umbilics_in_planes(directions);
   int corrections = 0;
-  const auto frame = [&](int c) {
-    return charts.turn[static_cast<size_t>(c / 3)][static_cast<size_t>(c % 3)];
-  };
-  const auto along = [&](int side) {
-    const auto& corner = charts.corner[static_cast<size_t>(side / 3)];
-    return Vec2d(corner[static_cast<size_t>((side + 1) % 3)] - corner[static_cast<size_t>(side % 3)]);
-  };
-  const auto bend = [&](int corner, int beyond, int side, int twin) {
-    const Vec2d turn_there = turned_back(frame(beyond), frame(corner));
-    const Vec2d b = turned_back(turn_there, turned_back(-along(twin), along(side)));
-    return std::atan2(b[1], b[0]);
-  };
   const auto turn_along = [&](int side) {
-    const auto at = [&](int c) { return deviators[static_cast<size_t>(c / 3)][static_cast<size_t>(c % 3)]; };
+    const auto at = [&](int c) { return directions[static_cast<size_t>(c / 3)][static_cast<size_t>(c % 3)]; };
     return turn(at(side), at(next_side(side)));
   };
   for (int side = 0; side < static_cast<int>(charts.seam.size()); ++side) {
@@ -114,14 +109,14 @@ SurfaceUmbilics umbilics_in_charts(const SurfaceRef& surface) {
         twin < side)
       continue;
     // By how much more than the edge a frame is turned at its two ends; twice that for deviators.
-    const double change = bend(side, next_side(twin), side, twin) - bend(next_side(side), twin, side, twin);
+    const double change = bends[static_cast<size_t>(side)] + bends[static_cast<size_t>(twin)];
     const double seen = 2 * change - turn_along(side) - turn_along(twin);
     const auto turns = static_cast<int>(std::lround(seen / (2 * pi)));
     result.doubled_index[static_cast<size_t>(twin / 3)] += turns;
     corrections += turns;
   }
   place_umbilics(deviators, result);
-  result.turning = turning_of_border(charts.sides, charts.seam, deviators) + 0.5 * corrections;
+  result.turning = turning_of_border(charts.sides, charts.seam, directions) + 0.5 * corrections;
   return result;
 }
 
