@@ -2,6 +2,7 @@
 // equation 6 asks for, and how many could be.
 //
 //   torus_spacing [--regular] [--epsilon E] [--max-slope S] [--stop-fraction F] [--seed-fraction F]
+//     [--relax-passes N]
 //
 // Lines of curvature are circles there, known exactly, and so is what equation 6, bounded as docs/density.md
 // says, wants between two of them. By surface: the share of the area that lies in gaps of the right width; by
@@ -193,6 +194,7 @@ int main(int argc, char** argv) {
     if (value("--epsilon")) options.density.epsilon_fraction = std::atof(argv[i + 1]);
     if (value("--max-slope")) options.density.max_slope = std::atof(argv[i + 1]);
     if (value("--stop-fraction")) options.stop_fraction = std::atof(argv[i + 1]);
+    if (value("--relax-passes")) options.relax_passes = static_cast<size_t>(std::atoi(argv[i + 1]));
     if (value("--seed-fraction")) options.seed_fraction = std::atof(argv[i + 1]);
   }
   auto mesh = make_shape("half-torus", {20000, irregular});

@@ -16,6 +16,7 @@
 #include "anisomesh/shapes.hh"
 #include "catch.hh"
 #include "data.hh"
+#include "sound_result.hh"
 
 using namespace anisomesh;
 
@@ -225,4 +226,13 @@ TEST_CASE("options out of range are refused before any work", "[remesh]") {
   options = {};
   options.mesh.max_degree = 2;
   refused(options);
+}
+
+TEST_CASE("relaxed lines make sound meshes, beside features and in either domain", "[remesh]") {
+  auto mesh = make_shape("octa-flower", {8000, true});
+  RemeshOptions options;
+  options.domain = GENERATE(Domain::plane, Domain::surface);
+  options.trace.relax_passes = 2;
+  auto result = remesh(mesh, options);
+  check_sound(compare(mesh, result));
 }

@@ -20,6 +20,13 @@ struct Reach {
   double fraction = 1;   ///< of the vector that was walked
 };
 
+/// The part of a way that lies in one face, from place to place: barycentric coordinates of corners 1 and 2.
+struct WayPiece {
+  int face = -1;
+  Vec2d from{0, 0}, to{0, 0};
+  double begin = 0, end = 1;  ///< fractions of the vector that is walked
+};
+
 /// The nearest point of a line or fence (border or feature), in the frame of the point that was asked about.
 struct Neighbour {
   double distance = std::numeric_limits<double>::infinity();
@@ -73,6 +80,9 @@ class Domain {
   /// The tensor at the end of a vector, carried back to the frame of its start.
   virtual Vec3d tensor_ahead(const SurfacePoint& from, const Vec2d& vector) const = 0;
   virtual Reach walk(const SurfacePoint& from, const Vec2d& vector) const = 0;
+  /// The same, face by face, until the visitor returns false.
+  virtual Reach walk_while(const SurfacePoint& from, const Vec2d& vector,
+                           const std::function<bool(const WayPiece&)>& visit) const = 0;
   /// The same place on the other side of the feature edge that a point lies on exactly; no face if there is
   /// none.
   virtual SurfacePoint beyond_feature(const SurfacePoint& at) const = 0;

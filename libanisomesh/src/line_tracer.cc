@@ -65,7 +65,7 @@ LineTracer::Step LineTracer::step(const TracePoint& from, double wanted) const {
     if (fine || h <= shortest) {
       const double growth =
           std::clamp(0.9 * std::pow(tolerance / std::max(tried.error, 1e-300), 0.2), 0.5, 2.0);
-      return {domain_.walk(from.point, tried.offset), tried.offset.norm(), h * growth};
+      return {domain_.walk(from.point, tried.offset), tried.offset, tried.offset.norm(), h * growth};
     }
     h = std::max(0.5 * h, shortest);
   }
@@ -132,6 +132,7 @@ void LineTracer::run(Half& half, int id, int umbilic, double crossings_of_other_
     wanted = made.next_length;
     TracePoint head;
     head.point = made.reach.point;
+    head.made = made.vector;
     const Vec2d carried = rotated_by(from.direction, made.reach.rotation);
     head.direction = direction(domain_.tensor(head.point), carried);
     const double length = made.length * made.reach.fraction;
@@ -177,6 +178,7 @@ TracePoint LineTracer::after_straight_step(const TracePoint& start, double spaci
   blocked = reach.blocked;
   TracePoint second;
   second.point = reach.point;
+  second.made = length * start.direction;
   second.direction = direction(domain_.tensor(second.point), rotated_by(start.direction, reach.rotation));
   second.arc = spacings;
   second.crossings = length / domain_.spacing(other(kind_), start.point);

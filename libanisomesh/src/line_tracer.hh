@@ -13,6 +13,7 @@ struct TracePoint {
   Vec2d direction{1, 0};  ///< unit, the way the line runs, in the frame of the point
   double arc = 0;         ///< length from the seed, in spacings between lines of this kind
   double crossings = 0;   ///< length from the seed, in spacings between lines of the other kind
+  Vec2d made{0, 0};       ///< what was walked to here, from the point before on the way from the seed
 };
 
 constexpr double kOffFeature =
@@ -49,6 +50,7 @@ class LineTracer {
   };
   struct Step {
     Reach reach;
+    Vec2d vector{0, 0};
     double length = 0;
     double next_length = 0;
   };

@@ -162,7 +162,10 @@ Vec3d PlaneDomain::barycentric(const Face& f, const Vec2d& point) const {
   return areas / total;
 }
 
-Reach PlaneDomain::walk(const SurfacePoint& from, const Vec2d& vector) const {
+// \param visit called for each face with the ends of the way in it and what of the vector is left at each;
+// false stops
+template <class Visit>
+Reach PlaneDomain::walk_visiting(const SurfacePoint& from, const Vec2d& vector, Visit&& visit) const {
   const auto clean = [](Vec3d b) {
     b.maximize(Vec3d(0, 0, 0));
     return b / (b[0] + b[1] + b[2]);
@@ -183,14 +186,12 @@ Reach PlaneDomain::walk(const SurfacePoint& from, const Vec2d& vector) const {
       const double t_i = at[i] / (at[i] - end[i]);
       if (t_i <= t) exit = i, t = t_i;
     }
-    if (exit < 0) {
-      at = clean(end);
-      left = 0;
-      break;
-    }
-    at = clean(at + t * (end - at));
+    const Vec3d before = at;
+    const double left_before = left;
+    at = clean(exit < 0 ? end : at + t * (end - at));
+    left = exit < 0 ? 0 : left * (1 - t);
+    if (!visit(current, before, at, left_before, left) || exit < 0) break;
     at[exit] = 0;
-    left *= 1 - t;
     const int next = f.across[exit];
     if (next < 0) {
       at = clean(at);
@@ -214,6 +215,18 @@ Reach PlaneDomain::walk(const SurfacePoint& from, const Vec2d& vector) const {
   reach.point = {OpenMesh::FaceHandle(current), at};
   reach.fraction = 1 - left;
   return reach;
+}
+
+Reach PlaneDomain::walk(const SurfacePoint& from, const Vec2d& vector) const {
+  return walk_visiting(from, vector, [](int, const Vec3d&, const Vec3d&, double, double) { return true; });
+}
+
+Reach PlaneDomain::walk_while(const SurfacePoint& from, const Vec2d& vector,
+                              const std::function<bool(const WayPiece&)>& visit) const {
+  return walk_visiting(
+      from, vector, [&](int face, const Vec3d& begin, const Vec3d& end, double left, double left_after) {
+        return visit({face, {begin[1], begin[2]}, {end[1], end[2]}, 1 - left, 1 - left_after});
+      });
 }
 
 std::vector<Vec2d> PlaneDomain::separatrices(const UmbilicPoint& umbilic, LineKind kind) const {

@@ -29,6 +29,8 @@ class PlaneDomain final : public FaceDomain {
   Vec3d tensor(const SurfacePoint& at) const override;
   Vec3d tensor_ahead(const SurfacePoint& from, const Vec2d& vector) const override;
   Reach walk(const SurfacePoint& from, const Vec2d& vector) const override;
+  Reach walk_while(const SurfacePoint& from, const Vec2d& vector,
+                   const std::function<bool(const WayPiece&)>& visit) const override;
   double turning_length(const SurfacePoint& at) const override;
   std::vector<Vec2d> separatrices(const UmbilicPoint& umbilic, LineKind kind) const override;
   void mark_within(const SurfacePoint& at, double radius, std::vector<char>& marks) const override;
@@ -50,6 +52,8 @@ class PlaneDomain final : public FaceDomain {
   };
 
   void make_nodes(const SurfaceRef& surface, const PlaneInput& input);
+  template <class Visit>
+  Reach walk_visiting(const SurfacePoint& from, const Vec2d& vector, Visit&& visit) const;
   std::vector<int> faces_within(const SurfacePoint& at, double radius) const;
   LinearField field(const Face& face) const;
   Vec3d barycentric(const Face& face, const Vec2d& point) const;

@@ -117,6 +117,15 @@ Reach SurfaceDomain::walk(const SurfacePoint& from, const Vec2d& vector) const {
   return walk_straight(ground(), from, vector, [](const PathPiece&) {});
 }
 
+Reach SurfaceDomain::walk_while(const SurfacePoint& from, const Vec2d& vector,
+                                const std::function<bool(const WayPiece&)>& visit) const {
+  return walk_straight_while(
+      ground(), from, vector,
+      [&](int face, int /*exit*/, const Vec3d& begin, const Vec3d& end, double left, double left_after) {
+        return visit({face, {begin[1], begin[2]}, {end[1], end[2]}, 1 - left, 1 - left_after});
+      });
+}
+
 LinearField SurfaceDomain::field(OpenMesh::FaceHandle face) const {
   const int f = face.idx();
   return {{ground().corner(f, 0), ground().corner(f, 1), ground().corner(f, 2)},

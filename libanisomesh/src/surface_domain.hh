@@ -38,6 +38,8 @@ class SurfaceDomain final : public FaceDomain {
   Vec3d tensor(const SurfacePoint& at) const override;
   Vec3d tensor_ahead(const SurfacePoint& from, const Vec2d& vector) const override;
   Reach walk(const SurfacePoint& from, const Vec2d& vector) const override;
+  Reach walk_while(const SurfacePoint& from, const Vec2d& vector,
+                   const std::function<bool(const WayPiece&)>& visit) const override;
   double turning_length(const SurfacePoint& at) const override;
   std::vector<Vec2d> separatrices(const UmbilicPoint& umbilic, LineKind kind) const override;
   void mark_within(const SurfacePoint& at, double radius, std::vector<char>& marks) const override;

@@ -21,10 +21,13 @@ inline Vec3d clean_barycentric(Vec3d b) {
 }
 
 /// Goes along a vector, unfolding at each edge; ends on the first border or feature edge, in the face before
-/// it. \param on_piece called with a PathPiece for each face
-template <class OnPiece>
-Reach walk_straight(const UnfoldedFaces& faces, const SurfacePoint& from, const Vec2d& vector,
-                    OnPiece&& on_piece) {
+/// it, or in the face where `visit` returns false.
+/// \param visit called for each face with the face, the corner opposite the edge that the way leaves by (-1:
+/// it ends in the face), the barycentric coordinates of both ends, and what fraction of the vector is left at
+/// each
+template <class Visit>
+Reach walk_straight_while(const UnfoldedFaces& faces, const SurfacePoint& from, const Vec2d& vector,
+                          Visit&& visit) {
   // A spacing crosses some hundred triangles; where rounding lets the way circle a vertex it gives up.
   constexpr int kMostCrossings = 20000;
   Reach reach;
@@ -42,14 +45,13 @@ Reach walk_straight(const UnfoldedFaces& faces, const SurfacePoint& from, const 
       const double t_i = at[k] / -step[k];
       if (t_i <= t) exit = i, t = t_i;
     }
-    PathPiece piece{face, faces.place({OpenMesh::FaceHandle(face), at}), {}, exit};
+    const Vec3d before = at;
     at = clean_barycentric(exit < 0 ? end : at + t * step);
     if (exit >= 0) {
       at[static_cast<size_t>(exit)] = 0;
       at = clean_barycentric(at);
     }
-    piece.to = faces.place({OpenMesh::FaceHandle(face), at});
-    on_piece(piece);
+    if (!visit(face, exit, before, at, left, exit < 0 ? 0 : left * (1 - t))) break;
     if (exit < 0) {
       left = 0;
       break;
@@ -71,6 +73,19 @@ Reach walk_straight(const UnfoldedFaces& faces, const SurfacePoint& from, const 
   reach.point = {OpenMesh::FaceHandle(face), at};
   reach.fraction = 1 - left;
   return reach;
+}
+
+/// The same to the end. \param on_piece called with a PathPiece for each face
+template <class OnPiece>
+Reach walk_straight(const UnfoldedFaces& faces, const SurfacePoint& from, const Vec2d& vector,
+                    OnPiece&& on_piece) {
+  return walk_straight_while(
+      faces, from, vector,
+      [&](int face, int exit, const Vec3d& begin, const Vec3d& end, double /*left*/, double /*left_after*/) {
+        const OpenMesh::FaceHandle handle(face);
+        on_piece(PathPiece{face, faces.place({handle, begin}), faces.place({handle, end}), exit});
+        return true;
+      });
 }
 
 }  // namespace anisomesh::detail

@@ -9,6 +9,7 @@
 #include "anisomesh/lines.hh"
 #include "anisomesh/properties.hh"
 #include "line_placement.hh"
+#include "line_relaxation.hh"
 #include "make_domain.hh"
 
 namespace anisomesh {
@@ -31,8 +32,13 @@ Line as_line(const detail::TracedLine& traced, LineKind kind) {
 // Both kinds at once; they know nothing of each other, so that the result is that of one after the other.
 class BothKinds {
  public:
-  BothKinds(const detail::Domain& domain, const TraceOptions& options, const Progress& progress)
-      : domain_(domain), options_(options), progress_(progress), caller_(std::this_thread::get_id()) {}
+  BothKinds(const SurfaceRef& surface, const detail::Domain& domain, const TraceOptions& options,
+            const Progress& progress)
+      : surface_(surface),
+        domain_(domain),
+        options_(options),
+        progress_(progress),
+        caller_(std::this_thread::get_id()) {}
 
   void run() {
     tbb::parallel_invoke([this] { place(LineKind::min); }, [this] { place(LineKind::max); });
@@ -44,15 +50,24 @@ class BothKinds {
  private:
   void place(LineKind kind) {
     const int k = static_cast<int>(kind);
-    placed[k] = detail::place_lines(domain_, kind, options_, [this, k](double fraction) {
+    const double passes = static_cast<double>(options_.relax_passes);
+    const auto reached = [this, k](double fraction) {
       done_[k] = fraction;
       if (progress_ && std::this_thread::get_id() == caller_ && !progress_(0.5 * (done_[0] + done_[1])))
         cancelled_ = true;
       return !cancelled_;
-    });
+    };
+    // A pass takes about as long as to place the lines.
+    placed[k] = detail::place_lines(domain_, kind, options_,
+                                    [&](double fraction) { return reached(fraction / (1 + passes)); });
+    if (passes > 0 && !cancelled_)
+      placed[k].lines = detail::relax_lines(
+          surface_, domain_, kind, options_, std::move(placed[k].lines),
+          [&](double fraction) { return reached((1 + passes * fraction) / (1 + passes)); });
     done_[k] = 1;
   }
 
+  const SurfaceRef& surface_;
   const detail::Domain& domain_;
   const TraceOptions& options_;
   const Progress& progress_;
@@ -82,7 +97,7 @@ TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& given, co
     options.seed_fraction = std::max(options.stop_fraction, seed_fraction_by_epsilon);
   const auto domain = detail::make_domain(surface, options.density, options.follow);
   report_progress(progress, 0);
-  BothKinds both(*domain, options, progress);
+  BothKinds both(surface, *domain, options, progress);
   both.run();
 
   TraceReport report;

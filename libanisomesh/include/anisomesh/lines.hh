@@ -54,8 +54,11 @@ struct TraceOptions {
   /// where epsilon is given, so that no gap is much too wide, and 0.8 where it is found for a target
   double seed_fraction = 0;
   double min_crossings = 1.5;  ///< a shorter line, in spacings of the other kind, is dropped; >= 0
-  unsigned seed = 1;           ///< of the random coverage check
-  void validate() const;       ///< \throw InvalidOption
+  /// Passes over all lines after they are placed, in which each is moved, shortened or lengthened so that
+  /// gaps are within 25 % of what is wanted over most of the surface. 0: lines stay where they were placed
+  size_t relax_passes = 0;
+  unsigned seed = 1;      ///< of the random coverage check
+  void validate() const;  ///< \throw InvalidOption
 };
 
 struct TraceReport {
