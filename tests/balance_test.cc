@@ -120,10 +120,7 @@ TEST_CASE("no number of threads changes a bit of the balance, and a cancel leave
 
 TEST_CASE("balanced scans have less error than decimation by quadrics reaches", "[balance]") {
   const auto path = demo_mesh("lion-head.off");
-  if (!path) {
-    std::printf("SKIPPED: lion-head.off is not in the folder ANISOMESH_DATA names\n");
-    return;
-  }
+  if (!path) return skip("lion-head.off");
   auto mesh = read_surface(*path);
   auto result = remeshed(mesh, 1000);
   balance_vertices(mesh, result);
@@ -131,4 +128,18 @@ TEST_CASE("balanced scans have less error than decimation by quadrics reaches", 
   CHECK(c.two_sided.rms < 0.00060);  // OpenMesh-commandlineDecimater -M Q: 0.00062
   CHECK(c.quad_fraction > 0.75);
   check_sound(c);
+}
+
+TEST_CASE("polygons that hang over a fold are parted anew", "[balance]") {
+  const auto path = demo_mesh("bull.off");
+  if (!path) return skip("bull.off");
+  auto mesh = read_surface(*path);
+  auto result = remeshed(mesh, 1000);
+  PolyMesh fitted = result;
+  fit_vertices(mesh, fitted);
+  balance_vertices(mesh, result);
+  const Comparison fit = compare(mesh, fitted), balanced = compare(mesh, result);
+  CHECK(balanced.to_reference.hausdorff < 0.8 * fit.to_reference.hausdorff);
+  CHECK(balanced.two_sided.rms < 0.85 * fit.two_sided.rms);
+  check_sound(balanced);
 }

@@ -134,10 +134,7 @@ TEST_CASE("the fit refuses what it was not made for, and a cancel leaves the res
 
 TEST_CASE("the fit halves the error of scans in six passes", "[fit]") {
   const auto path = demo_mesh("lion-head.off");
-  if (!path) {
-    std::printf("SKIPPED: lion-head.off is not in the folder ANISOMESH_DATA names\n");
-    return;
-  }
+  if (!path) return skip("lion-head.off");
   auto mesh = read_surface(*path);
   auto result = remeshed(mesh, 1000);
   const Comparison before = compare(mesh, result);
@@ -151,10 +148,7 @@ TEST_CASE("the fit halves the error of scans in six passes", "[fit]") {
 
 TEST_CASE("with features that end on the surface, too, the fit does not raise the error", "[fit]") {
   const auto path = demo_mesh("fandisk.off");
-  if (!path) {
-    std::printf("SKIPPED: fandisk.off is not in the folder ANISOMESH_DATA names\n");
-    return;
-  }
+  if (!path) return skip("fandisk.off");
   auto mesh = read_surface(*path);
   RemeshOptions options;
   options.features.angle_degrees = 40;

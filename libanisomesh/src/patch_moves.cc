@@ -16,6 +16,8 @@ constexpr size_t most_corners = 12;      // of a patch
 constexpr double worth_a_look = 0.7;     // mean errors: better polygons are left alone
 constexpr double tried_removals = 0.35;  // of all vertices, those that seem cheapest
 constexpr double worth_adding = 2;       // mean errors: there a vertex may be added
+constexpr double least_fold = -0.9;      // cosine between neighbours
+constexpr double hanging = 3;            // times the error of the input beside it, or the mean one
 
 void sort_by_gain(std::vector<PatchMove>& moves) {
   moves.erase(std::remove_if(moves.begin(), moves.end(), [](const PatchMove& m) { return m.pieces.empty(); }),
@@ -39,6 +41,56 @@ double inner_chords(const PatchMesh& mesh, const PatchMesh::Patch& patch, const 
   return sum;
 }
 
+Vec3d area_of(const std::vector<Vec3d>& ring) {
+  Vec3d area(0, 0, 0);
+  for (size_t i = 1; i + 1 < ring.size(); ++i) area += cross(ring[i] - ring[0], ring[i + 1] - ring[0]);
+  return area;
+}
+
+Vec3d unit(const Vec3d& v) {
+  const double length = v.norm();
+  return length > 0 ? v / length : v;
+}
+
+// Whether a polygon is folded onto one beside the patch that was not so before.
+bool folds(const PatchMesh& mesh, const PatchMove& move) {
+  const auto& ring = move.patch.ring;
+  const auto normal_of = [&](const std::vector<int>& polygon) {
+    std::vector<Vec3d> places;
+    for (const int v : polygon) places.push_back(v < 0 ? move.place : mesh.point(v));
+    return unit(area_of(places));
+  };
+  const auto normal_at = [&](const std::vector<std::vector<int>>& polygons, int v, int w) {
+    for (const auto& polygon : polygons)
+      for (size_t i = 0; i < polygon.size(); ++i)
+        if (polygon[i] == v && polygon[(i + 1) % polygon.size()] == w) return normal_of(polygon);
+    return Vec3d(0, 0, 0);
+  };
+  std::vector<std::vector<int>> before;
+  for (const int p : move.patch.polygons) before.push_back(mesh.polygons()[at(p)]);
+  double lowest = 1, lowest_before = least_fold;
+  for (size_t i = 0; i < ring.size(); ++i) {
+    const int v = ring[i], w = ring[(i + 1) % ring.size()], beside = mesh.across(v, w);
+    if (beside < 0) continue;
+    const Vec3d other = normal_of(mesh.polygons()[at(beside)]);
+    lowest = std::min(lowest, other | normal_at(move.pieces, v, w));
+    lowest_before = std::min(lowest_before, other | normal_at(before, v, w));
+  }
+  return lowest < lowest_before;
+}
+
+// A polygon with each two of its neighbours.
+void add_threes(const PatchMesh& mesh, int p, std::vector<std::vector<int>>& groups) {
+  const auto& polygon = mesh.polygons()[at(p)];
+  std::vector<int> around;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const int q = mesh.across(polygon[i], polygon[(i + 1) % polygon.size()]);
+    if (q >= 0 && std::find(around.begin(), around.end(), q) == around.end()) around.push_back(q);
+  }
+  for (size_t i = 0; i < around.size(); ++i)
+    for (size_t j = 0; j < i; ++j) groups.push_back({p, around[j], around[i]});
+}
+
 }  // namespace
 
 /// A patch, and what has to be known to change it.
@@ -54,39 +106,33 @@ struct PatchMoves::Situation {
   bool possible = false;
 };
 
+/// A place of the input that stands beside a polygon.
+struct PatchMoves::Sample {
+  Vec3d place{0, 0, 0};
+  double weight = 0, distance = 0;
+  int face = -1;
+};
+
+// Of the result, samples stand for their feet on the input.
+PatchMoves::Sample PatchMoves::sample_of(int index) const {
+  const FitPair& pair = fit_.pairs()[at(index)];
+  if (at(index) < fit_.matching().samples().size())
+    return {fit_.matching().samples()[at(index)].place, pair.weight, pair.distance, pair.face};
+  Vec3d foot = pair.distance * pair.direction;
+  const Triangle& corner = fit_.triangles().corner[at(pair.triangle)];
+  for (int k = 0; k < 3; ++k) foot += pair.barycentric[k] * fit_.points()[at(corner[at(k)])];
+  return {foot, pair.weight, pair.distance, pair.face};
+}
+
 PatchMoves::PatchMoves(const SurfaceRef& surface, const FitInput& input, const FitState& fit,
                        const BalanceOptions& options)
     : surface_(surface), input_(input), fit_(fit) {
   const auto& mesh = fit.mesh();
   const auto& triangles = fit.triangles();
-  const auto& samples = fit.matching().samples();
   std::vector<int> polygon_of(triangles.corner.size());
   for (int p = 0; p < mesh.n_polygons(); ++p)
     for (int t = triangles.first[at(p)]; t < triangles.first[at(p) + 1]; ++t) polygon_of[at(t)] = p;
-  error_.assign(at(mesh.n_polygons()), 0);
-  worst_.assign(at(mesh.n_polygons()), 0);
-  first_sample_.assign(at(mesh.n_polygons()) + 1, 0);
-  double total = 0;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    const FitPair& pair = fit.pairs()[i];
-    if (pair.triangle < 0) continue;
-    const double error = pair.weight * pair.distance * pair.distance;
-    error_[at(polygon_of[at(pair.triangle)])] += error;
-    ++first_sample_[at(polygon_of[at(pair.triangle)]) + 1];
-    total += error;
-  }
-  for (const FitPair& pair : fit.pairs())
-    if (pair.triangle >= 0) {
-      double& worst = worst_[at(polygon_of[at(pair.triangle)])];
-      worst = std::max(worst, pair.distance);
-    }
-  for (size_t p = 0; p + 1 < first_sample_.size(); ++p) first_sample_[p + 1] += first_sample_[p];
-  sample_.resize(at(first_sample_.back()));
-  std::vector<int> next(first_sample_.begin(), first_sample_.end() - 1);
-  for (size_t i = 0; i < samples.size(); ++i)
-    if (fit.pairs()[i].triangle >= 0)
-      sample_[at(next[at(polygon_of[at(fit.pairs()[i].triangle)])]++)] = static_cast<int>(i);
-  mean_error_ = total / std::max(1, mesh.n_polygons());
+  sort_samples(polygon_of);
   costs_.triangle = options.triangle_cost * mean_error_;
   costs_.quads = options.max_degree == 4;
   costs_.follow = input.follow;
@@ -95,6 +141,40 @@ PatchMoves::PatchMoves(const SurfaceRef& surface, const FitInput& input, const F
     length += (fit.points()[at(side.to)] - fit.points()[at(side.from)]).norm();
   if (length > 0)
     costs_.chord = options.alignment_cost * mean_error_ * static_cast<double>(mesh.sides.size()) / length;
+}
+
+// A polygon that hangs in the air, as over a fold, is far from the input while little of the input is beside
+// it: what stands beside it are the feet of its own samples too.
+void PatchMoves::sort_samples(const std::vector<int>& polygon_of) {
+  const size_t n = at(fit_.mesh().n_polygons()), n_input = fit_.matching().samples().size();
+  const auto& pairs = fit_.pairs();
+  const auto polygon = [&](size_t i) { return at(polygon_of[at(pairs[i].triangle)]); };
+  const auto squared = [&](size_t i) { return pairs[i].weight * pairs[i].distance * pairs[i].distance; };
+  error_.assign(n, 0);
+  worst_.assign(n, 0);
+  std::vector<double> own(n, 0);
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    if (pairs[i].triangle < 0) continue;
+    (i < n_input ? error_ : own)[polygon(i)] += squared(i);
+    worst_[polygon(i)] = std::max(worst_[polygon(i)], pairs[i].distance);
+  }
+  double total = 0;
+  for (const double error : error_) total += error;
+  mean_error_ = total / static_cast<double>(std::max<size_t>(1, n));
+  hangs_.assign(n, 0);
+  for (size_t p = 0; p < n; ++p) {
+    hangs_[p] = own[p] > hanging * std::max(error_[p], mean_error_);
+    if (hangs_[p]) error_[p] += own[p];
+  }
+  first_sample_.assign(n + 1, 0);
+  const auto counts = [&](size_t i) { return pairs[i].triangle >= 0 && (i < n_input || hangs_[polygon(i)]); };
+  for (size_t i = 0; i < pairs.size(); ++i)
+    if (counts(i)) ++first_sample_[polygon(i) + 1];
+  for (size_t p = 0; p < n; ++p) first_sample_[p + 1] += first_sample_[p];
+  sample_.resize(at(first_sample_.back()));
+  std::vector<int> next(first_sample_.begin(), first_sample_.end() - 1);
+  for (size_t i = 0; i < pairs.size(); ++i)
+    if (counts(i)) sample_[at(next[polygon(i)]++)] = static_cast<int>(i);
 }
 
 PatchMoves::Situation PatchMoves::look_at(const PatchMesh& mesh, const PatchMesh::Patch& patch) const {
@@ -106,17 +186,20 @@ PatchMoves::Situation PatchMoves::look_at(const PatchMesh& mesh, const PatchMesh
     s.worst = std::max(s.worst, worst_[at(p)]);
     if (mesh.polygons()[at(p)].size() == 3) s.costs += costs_.triangle;
     for (int i = first_sample_[at(p)]; i < first_sample_[at(p) + 1]; ++i) {
-      const auto& sample = fit_.matching().samples()[at(sample_[at(i)])];
+      const Sample sample = sample_of(sample_[at(i)]);
       s.samples.push_back({sample.place, sample.weight});
       s.numbers.push_back(sample_[at(i)]);
       s.normal += sample.weight * input_.normal[at(sample.face)];
       if (!input_.tensor.empty()) s.tensor += sample.weight * input_.tensor[at(sample.face)];
     }
   }
+  for (const int v : patch.ring) s.ring.push_back(mesh.point(v));
+  // What stands beside a polygon that hangs faces all ways: the border of the patch knows better.
+  if (std::any_of(patch.polygons.begin(), patch.polygons.end(), [&](int p) { return hangs_[at(p)]; }))
+    s.normal = area_of(s.ring);
   const double length = s.normal.norm();
   if (!(length > 0)) return s;
   s.normal /= length;
-  for (const int v : patch.ring) s.ring.push_back(mesh.point(v));
   s.forbidden.assign(n * n, 0);
   for (size_t i = 0; i < n; ++i)
     for (size_t j = i + 2; j < n; ++j)
@@ -141,7 +224,7 @@ PatchMove PatchMoves::partition(const PatchMesh& mesh, const PatchMesh::Patch& p
     for (int& i : piece) i = patch.ring[at(i)];
     move.pieces.push_back(std::move(piece));
   }
-  if (!mesh.may_replace(patch, move.pieces)) move.pieces.clear();
+  if (!mesh.may_replace(patch, move.pieces) || folds(mesh, move)) move.pieces.clear();
   return move;
 }
 
@@ -158,7 +241,7 @@ PatchMove PatchMoves::addition(const PatchMesh& mesh, const PatchMesh::Patch& pa
     const double distance = fit_.pairs()[at(s.numbers[i])].distance;
     if (distance > largest) largest = distance, worst = i;
   }
-  const auto& sample = fit_.matching().samples()[at(s.numbers[worst])];
+  const Sample sample = sample_of(s.numbers[worst]);
   Vec3d middle = view.best_middle(view.best_middle(sample.place, s.ring), s.ring);
   PatchPieces found = partition_around(view, s.ring, middle);
   const PatchPieces there = partition_around(view, s.ring, sample.place);
@@ -179,7 +262,7 @@ PatchMove PatchMoves::addition(const PatchMesh& mesh, const PatchMesh::Patch& pa
     for (int& i : piece) i = at(i) < patch.ring.size() ? patch.ring[at(i)] : -1;
     move.pieces.push_back(std::move(piece));
   }
-  if (!mesh.may_replace(patch, move.pieces)) move.pieces.clear();
+  if (!mesh.may_replace(patch, move.pieces) || folds(mesh, move)) move.pieces.clear();
   return move;
 }
 
@@ -195,6 +278,7 @@ std::vector<PatchMove> PatchMoves::repartitions(const PatchMesh& mesh) const {
       if (triangles || error_[p] + error_[at(q)] > 2 * worth_a_look * mean_error_)
         groups.push_back({static_cast<int>(p), q});
     }
+    if (hangs_[p]) add_threes(mesh, static_cast<int>(p), groups);
   }
   std::vector<PatchMove> moves(groups.size());
   tbb::parallel_for(size_t{0}, groups.size(), [&](size_t i) {

@@ -41,6 +41,9 @@ class PatchMoves {
 
  private:
   struct Situation;
+  struct Sample;
+  Sample sample_of(int pair) const;
+  void sort_samples(const std::vector<int>& polygon_of);
   Situation look_at(const PatchMesh& mesh, const PatchMesh::Patch& patch) const;
   double guess(const PatchMesh& mesh, const PatchMesh::Patch& star, int vertex) const;
   PatchMove partition(const PatchMesh& mesh, const PatchMesh::Patch& patch, bool keeps_vertices) const;
@@ -55,7 +58,8 @@ class PatchMoves {
   double mean_error_ = 0;
   std::vector<double> worst_;               // largest distance of a sample on each polygon
   std::vector<double> error_;               // of each polygon
-  std::vector<int> first_sample_, sample_;  // of the input, for each polygon
+  std::vector<char> hangs_;                 // in the air
+  std::vector<int> first_sample_, sample_;  // of the input, for each polygon: indices of pairs
 };
 
 /// Applies moves as long as none concerns polygons that another has changed.
