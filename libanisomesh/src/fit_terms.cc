@@ -97,17 +97,12 @@ struct SideTensor {
 void add_turn(const FitMesh::Side& side, const SideTensor& curvature, const Vec3d& normal,
               double align_weight, Follow follow, const std::vector<Vec3d>& points, FitSystem& system) {
   const TangentFrame frame(normal);
-  const Vec3d t = followed(in_frame(curvature.tensor, frame), follow);
-  const double mean = 0.5 * (t[0] + t[2]), half = 0.5 * (t[0] - t[2]), deviator = std::hypot(half, t[1]);
-  const double small = std::min(std::abs(mean - deviator), std::abs(mean + deviator)),
-               large = std::max(std::abs(mean - deviator), std::abs(mean + deviator));
-  if (!(large > 0)) return;
-  const double anisotropy = (large - small) / (large + small);
+  const Orientation lines = orientation(followed(in_frame(curvature.tensor, frame), follow));
   const double sure =
-      std::clamp((anisotropy - anisotropy_from) / (anisotropy_full - anisotropy_from), 0.0, 1.0);
+      std::clamp((lines.anisotropy - anisotropy_from) / (anisotropy_full - anisotropy_from), 0.0, 1.0);
   if (!(sure > 0)) return;
-  const double angle = 0.5 * std::atan2(t[1], half);
-  const Vec3d first = std::cos(angle) * frame.u + std::sin(angle) * frame.v, second = cross(normal, first);
+  const Vec3d first = std::cos(lines.angle) * frame.u + std::sin(lines.angle) * frame.v,
+              second = cross(normal, first);
   const Vec3d along = points[at(side.to)] - points[at(side.from)];
   const double a = along | first, b = along | second, length = std::hypot(a, b);
   if (!(length > 0)) return;

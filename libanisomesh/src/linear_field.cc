@@ -1,5 +1,6 @@
 #include "linear_field.hh"
 
+#include <algorithm>
 #include <cmath>
 
 #include "numerics/tensor2d.hh"
@@ -36,6 +37,15 @@ double middle_of_three(const std::vector<double>& angles) {
 
 Vec3d followed(const Vec3d& tensor, Follow follow) {
   return follow == Follow::min_abs ? turned_to_asymptotic(tensor) : tensor;
+}
+
+Orientation orientation(const Vec3d& tensor) {
+  double k_min = 0, k_max = 0;
+  eigenvalues(tensor, k_min, k_max);
+  const double small = std::min(std::abs(k_min), std::abs(k_max)),
+               large = std::max(std::abs(k_min), std::abs(k_max));
+  const Vec2d d = deviator(tensor);
+  return {0.5 * std::atan2(d[1], d[0]), large > 0 ? (large - small) / (large + small) : 0};
 }
 
 double turning_length(const LinearField& field, const Vec3d& tensor_here) {

@@ -12,6 +12,13 @@ namespace anisomesh::detail {
 /// What lines follow where the curvature tensor is this one.
 Vec3d followed(const Vec3d& tensor, Follow follow);
 
+/// Which way a tensor lies, and how surely.
+struct Orientation {
+  double angle = 0;       ///< of the eigenvector of the larger eigenvalue, radians
+  double anisotropy = 0;  ///< (|k_large| - |k_small|) / (|k_large| + |k_small|), by magnitude
+};
+Orientation orientation(const Vec3d& tensor);
+
 /// One triangle of a tensor field that is linear in it.
 struct LinearField {
   std::array<Vec2d, 3> corner;

@@ -57,6 +57,7 @@ bool folds(const PatchMesh& mesh, const PatchMove& move) {
   const auto& ring = move.patch.ring;
   const auto normal_of = [&](const std::vector<int>& polygon) {
     std::vector<Vec3d> places;
+    places.reserve(polygon.size());
     for (const int v : polygon) places.push_back(v < 0 ? move.place : mesh.point(v));
     return unit(area_of(places));
   };

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "linear_field.hh"
 #include "numerics/tensor3d.hh"
 #include "polygon_judge.hh"
 
@@ -19,11 +18,6 @@ constexpr double least_bend = 0.6;       // of the normals of a quad's triangles
 constexpr double damping = 0.05;
 constexpr double least_anisotropy = 0.3;  // as where the ruler measures alignment
 
-double anisotropy(double k, double l) {
-  const double small = std::min(std::abs(k), std::abs(l)), large = std::max(std::abs(k), std::abs(l));
-  return large > 0 ? (large - small) / (large + small) : 0;
-}
-
 }  // namespace
 
 PatchView::PatchView(const Vec3d& normal, std::vector<PatchSample> samples, const Vec6d& tensor,
@@ -32,10 +26,7 @@ PatchView::PatchView(const Vec3d& normal, std::vector<PatchSample> samples, cons
   const TangentFrame frame(normal);
   u_ = frame.u;
   v_ = frame.v;
-  const Vec3d t = followed(in_frame(tensor, frame), costs.follow);
-  const double mean = 0.5 * (t[0] + t[2]), half = 0.5 * (t[0] - t[2]), deviator = std::hypot(half, t[1]);
-  angle_ = 0.5 * std::atan2(t[1], half);
-  anisotropy_ = anisotropy(mean - deviator, mean + deviator);
+  lines_ = orientation(followed(in_frame(tensor, frame), costs.follow));
   places_.reserve(samples_.size());
   for (const PatchSample& s : samples_) places_.push_back(seen(s.place));
 }
@@ -61,9 +52,9 @@ double PatchView::triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) const
 }
 
 double PatchView::chord(const Vec3d& a, const Vec3d& b) const {
-  if (!(anisotropy_ > least_anisotropy)) return 0;
+  if (!(lines_.anisotropy > least_anisotropy)) return 0;
   const Place p = seen(a), q = seen(b);
-  const double turned = std::abs(std::sin(2 * (std::atan2(q.y - p.y, q.x - p.x) - angle_)));
+  const double turned = std::abs(std::sin(2 * (std::atan2(q.y - p.y, q.x - p.x) - lines_.angle)));
   return costs_.chord * turned * (b - a).norm();
 }
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "anisomesh/lines.hh"
+#include "linear_field.hh"
 #include "numerics/bvh.hh"
 #include "numerics/tensor3d.hh"
 
@@ -50,7 +50,7 @@ class PatchView {
   Place seen(const Vec3d& p) const { return {p | u_, p | v_}; }
 
   Vec3d normal_, u_, v_;
-  double angle_ = 0, anisotropy_ = 0;  // of the first principal direction
+  Orientation lines_;  // what lines follow here
   PatchCosts costs_;
   std::vector<PatchSample> samples_;
   std::vector<Place> places_;
