@@ -53,6 +53,25 @@ TEST_CASE("meshes that no stage can read are refused", "[surface]") {
     mesh.delete_face(OpenMesh::FaceHandle(1));
     CHECK_THROWS_WITH(SurfaceRef(mesh), Catch::Contains("garbage_collection"));
   }
+  SECTION("all points in one place, or on a line") {
+    auto mesh = one_triangle<DoubleMesh>();
+    mesh.set_point(mesh.vertex_handle(2), {1, 0, 0});
+    CHECK_THROWS_WITH(SurfaceRef(mesh), Catch::Contains("no face has an area"));
+    for (const auto v : mesh.vertices()) mesh.set_point(v, {1, 2, 3});
+    CHECK_THROWS_WITH(SurfaceRef(mesh), Catch::Contains("in one place"));
+  }
+  SECTION("a size whose powers are 0 or infinite") {
+    for (const double scale : {1e-310, 1e-170, 1e-61, 1e61, 1e200, 1e305}) {
+      auto mesh = one_triangle<DoubleMesh>();
+      for (const auto v : mesh.vertices()) mesh.set_point(v, scale * mesh.point(v));
+      CHECK_THROWS_WITH(SurfaceRef(mesh), Catch::Contains("scale the mesh"));
+    }
+    for (const double scale : {1e-59, 1e59}) {
+      auto mesh = one_triangle<DoubleMesh>();
+      for (const auto v : mesh.vertices()) mesh.set_point(v, scale * mesh.point(v));
+      CHECK(SurfaceRef(mesh).diagonal() == Approx(5 * scale));
+    }
+  }
   SECTION("a point that is not finite") {
     auto mesh = one_triangle<DoubleMesh>();
     mesh.set_point(mesh.vertex_handle(1), {std::numeric_limits<double>::quiet_NaN(), 0, 0});

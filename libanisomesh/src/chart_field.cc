@@ -201,7 +201,7 @@ std::vector<double> seam_bends(const ChartField& charts) {
   }
   // Each is known up to full turns. Where charts turn far, more than half a turn is wanted of one of them.
   for (const auto& [vertex, star] : seam_stars(charts, bends)) {
-    if (!star.closed) continue;
+    if (!star.closed || !std::isfinite(star.bends + star.angles)) continue;
     const auto extra = std::lround((star.bends + star.angles) / kFullTurn) - 1;
     const auto less = [&](int a, int b) {
       return bends[static_cast<size_t>(a)] < bends[static_cast<size_t>(b)];

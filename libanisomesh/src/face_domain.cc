@@ -64,7 +64,7 @@ void grade(std::vector<std::array<double, 2>>& spacings, size_t kind, const Link
     for (int e = links.begin[static_cast<size_t>(i)]; e < links.begin[static_cast<size_t>(i) + 1]; ++e) {
       const Links::Link& link = links.links[static_cast<size_t>(e)];
       double& other = spacings[static_cast<size_t>(link.node)][kind];
-      if (other <= spacing + max_slope * link.length) continue;
+      if (!(other > spacing + max_slope * link.length)) continue;
       other = spacing + max_slope * link.length;
       queue.emplace(other, link.node);
     }

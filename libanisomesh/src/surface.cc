@@ -1,6 +1,8 @@
 #include "anisomesh/surface.hh"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "anisomesh/errors.hh"
@@ -8,6 +10,12 @@
 namespace anisomesh {
 
 namespace {
+
+std::string scientific(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
 
 void refuse_deleted_elements(const OpenMesh::TriConnectivity& mesh) {
   const auto refuse = [](const char* element, int index) {
@@ -20,6 +28,17 @@ void refuse_deleted_elements(const OpenMesh::TriConnectivity& mesh) {
   if (mesh.has_face_status())
     for (const auto f : mesh.all_faces())
       if (mesh.status(f).deleted()) refuse("face", f.idx());
+}
+
+// Beyond these, products of four lengths cannot be told from 0, or from infinity.
+constexpr double kLeastExtent = 1e-60, kMostExtent = 1e60;
+
+void refuse_extent(double diagonal) {
+  if (diagonal >= kLeastExtent && diagonal <= kMostExtent) return;
+  if (diagonal == 0) throw InvalidInput("all vertices lie in one place");
+  throw InvalidInput("the bounding box has a diagonal of " + scientific(diagonal) + ", and lengths from " +
+                     scientific(kLeastExtent) + " to " + scientific(kMostExtent) +
+                     " can be computed with; scale the mesh");
 }
 
 }  // namespace
@@ -36,7 +55,17 @@ SurfaceRef::SurfaceRef(OpenMesh::TriConnectivity& connectivity, std::vector<Vec3
     low.minimize(p);
     high.maximize(p);
   }
-  diagonal_ = (high - low).norm();
+  const Vec3d size = high - low;
+  const double longest = std::max({size[0], size[1], size[2]});  // squares may underflow or overflow
+  diagonal_ = longest > 0 && std::isfinite(longest) ? longest * (size / longest).norm() : longest;
+  refuse_extent(diagonal_);
+  for (const auto f : connectivity.all_faces()) {
+    const auto c = corners(f);
+    const Vec3d normal =
+        (point(c.vertex[1]) - point(c.vertex[0])) % (point(c.vertex[2]) - point(c.vertex[0]));
+    if (normal.sqrnorm() > 0) return;
+  }
+  throw InvalidInput("no face has an area: all vertices lie on a line, or each face's do");
 }
 
 Vec3d position(const SurfaceRef& surface, const SurfacePoint& point) {
