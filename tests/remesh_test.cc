@@ -236,3 +236,9 @@ TEST_CASE("relaxed lines make sound meshes, beside features and in either domain
   auto result = remesh(mesh, options);
   check_sound(compare(mesh, result));
 }
+
+TEST_CASE("a surface without area is refused before lines are drawn on it", "[remesh]") {
+  auto mesh = make_shape("sphere", {300, true});
+  for (const auto v : mesh.vertices()) mesh.set_point(v, {mesh.point(v)[2], 0, 0});
+  CHECK_THROWS_WITH(remesh(mesh), Catch::Contains("no face of the surface has an area"));
+}

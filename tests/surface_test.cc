@@ -53,10 +53,8 @@ TEST_CASE("meshes that no stage can read are refused", "[surface]") {
     mesh.delete_face(OpenMesh::FaceHandle(1));
     CHECK_THROWS_WITH(SurfaceRef(mesh), Catch::Contains("garbage_collection"));
   }
-  SECTION("all points in one place, or on a line") {
+  SECTION("all points in one place") {
     auto mesh = one_triangle<DoubleMesh>();
-    mesh.set_point(mesh.vertex_handle(2), {1, 0, 0});
-    CHECK_THROWS_WITH(SurfaceRef(mesh), Catch::Contains("no face has an area"));
     for (const auto v : mesh.vertices()) mesh.set_point(v, {1, 2, 3});
     CHECK_THROWS_WITH(SurfaceRef(mesh), Catch::Contains("in one place"));
   }

@@ -59,13 +59,6 @@ SurfaceRef::SurfaceRef(OpenMesh::TriConnectivity& connectivity, std::vector<Vec3
   const double longest = std::max({size[0], size[1], size[2]});  // squares may underflow or overflow
   diagonal_ = longest > 0 && std::isfinite(longest) ? longest * (size / longest).norm() : longest;
   refuse_extent(diagonal_);
-  for (const auto f : connectivity.all_faces()) {
-    const auto c = corners(f);
-    const Vec3d normal =
-        (point(c.vertex[1]) - point(c.vertex[0])) % (point(c.vertex[2]) - point(c.vertex[0]));
-    if (normal.sqrnorm() > 0) return;
-  }
-  throw InvalidInput("no face has an area: all vertices lie on a line, or each face's do");
 }
 
 Vec3d position(const SurfaceRef& surface, const SurfacePoint& point) {

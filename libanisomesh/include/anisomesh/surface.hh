@@ -17,7 +17,7 @@ using OpenMesh::Vec3d;
 ///
 /// Any mesh that derives from OpenMesh::TriConnectivity fits. Properties are read from and written to the
 /// mesh itself. The mesh must outlive the view; after points of the mesh are moved, make a new view. \throw
-/// InvalidInput if the mesh has no faces, none with an area, has deleted elements or a point that is not
+/// InvalidInput if the mesh has no faces, has deleted elements or a point that is not
 /// finite, or is smaller than 1e-60 or larger than 1e60 (its diagonal).
 class SurfaceRef {
  public:
