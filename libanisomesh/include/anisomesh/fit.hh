@@ -16,7 +16,7 @@ struct FitOptions {
   double normal_weight = 0.01;
   double planarity_weight = 0.01;  ///< of the squared height of a quad's corners over their plane; >= 0
   /// Of the squared part of a side that leads away from the nearer principal direction; >= 0
-  double alignment_weight = 0.01;
+  double alignment_weight = 5e-3;
   double damping = 0.02;  ///< of the squared step, which is what holds vertices of flat places; > 0
   void validate() const;  ///< \throw InvalidOption
 };
