@@ -221,25 +221,42 @@ void MeshEmbedding::coarsen(const NetworkGraph& network, double tolerance) {
         !network.fixed[at(v.idx())] && !is_kept(v))
       waiting.push_back(v.idx());
   std::vector<int> touched(mesh_.n_vertices(), -1);
-  int pass = 0;
+  // Steps at which the neighbours of a vertex changed, and at which it could not go: it need not be tried again
+  // before something within two edges of it is another.
+  std::vector<int> changed(mesh_.n_vertices(), 0), failed(mesh_.n_vertices(), -1);
+  const auto is_as_before = [&](VertexHandle v) {
+    const int last = failed[at(v.idx())];
+    if (changed[at(v.idx())] > last) return false;
+    for (const auto w : mesh_.vv_range(v))
+      if (changed[at(w.idx())] > last) return false;
+    return true;
+  };
+  int pass = 0, step = 0;
   for (const Care care : {Care::shape, Care::turning, Care::topology}) {
+    std::fill(failed.begin(), failed.end(), -1);
     while (true) {
       ++pass;
       std::vector<int> left;
-      size_t skipped = 0;
       for (const int n : waiting) {
         const VertexHandle v(n);
         if (touched[at(n)] == pass && care == Care::shape) {
           left.push_back(n);
-          ++skipped;
           continue;
         }
+        ++step;
         std::vector<int> around;
-        for (const auto w : mesh_.vv_range(v)) around.push_back(w.idx());
-        if (take_out(v, care))
-          for (const int w : around) touched[at(w)] = pass;
-        else
-          left.push_back(n);
+        if (!is_as_before(v)) {
+          for (const auto w : mesh_.vv_range(v)) around.push_back(w.idx());
+          if (take_out(v, care)) {
+            for (const int w : around) {
+              touched[at(w)] = pass;
+              changed[at(w)] = step;
+            }
+            continue;
+          }
+          failed[at(n)] = step;
+        }
+        left.push_back(n);
       }
       const bool done = left.size() == waiting.size() || left.empty();
       waiting = std::move(left);
