@@ -11,6 +11,7 @@
 #include "anisomesh/lines.hh"
 #include "anisomesh/properties.hh"
 #include "catch.hh"
+#include "line_directions.hh"
 #include "uv_locator.hh"
 
 using namespace anisomesh;
@@ -340,4 +341,29 @@ TEST_CASE("what cannot be meshed is refused", "[mesher]") {
   options.max_degree = 2;
   CHECK_THROWS_AS(build_polygons(surface, options), InvalidOption);
   CHECK_THROWS_AS(build_polygons(surface, {}, nullptr, [](double) { return false; }), Cancelled);
+}
+
+TEST_CASE("how far an edge turns from the directions of the lines is known from the tensors", "[mesher]") {
+  auto mesh = square(2);
+  const SurfacePoint middle{OpenMesh::FaceHandle(0), Vec3d(1, 1, 1) / 3};
+  {
+    const SurfaceRef surface(mesh);
+    CHECK(detail::LineDirections(surface).misalignment(middle, {1, 1, 0}) == 0);  // none known
+  }
+  const auto tensor = provide_property(mesh, property::tensor);
+  const auto bend = [&](const OpenMesh::Vec6d& t) {
+    for (const auto v : mesh.vertices()) mesh.property(tensor, v) = t;
+  };
+  bend({0, 0, 0, 4, 0, 0});  // a cylinder along x
+  const SurfaceRef surface(mesh);
+  for (int i = 0; i <= 24; ++i) {
+    const double angle = pi * i / 12, sine = std::sin(2 * angle);
+    const Vec3d along(5 * std::cos(angle), 5 * std::sin(angle), 0.3);
+    CHECK(detail::LineDirections(surface).misalignment(middle, along) == Approx(sine * sine).margin(1e-12));
+  }
+  bend({0, 2, 0, 0, 0, 0});  // a symmetric saddle: any directions will do
+  CHECK(detail::LineDirections(surface).misalignment(middle, {1, 0, 0}) == 0);
+  bend({3, 2, 0, 3, 0, 0});  // 1 and 5, along the diagonals
+  CHECK(detail::LineDirections(surface).misalignment(middle, {1, 0, 0}) == Approx(1));
+  CHECK(detail::LineDirections(surface).misalignment(middle, {1, 1, 0}) == Approx(0).margin(1e-12));
 }

@@ -14,7 +14,8 @@ constexpr double degree = pi / 180;
 constexpr double triangle_base = 1.4;  // two triangles are worth avoiding unless the quad is badly shaped
 constexpr double shape_weight = 2;
 constexpr double error_weight = 0.6;
-constexpr double bent = 3;  // a quad bent too far: worse than two good triangles
+constexpr double align_weight = 1;  // of an edge in the middle between two directions
+constexpr double bent = 3;          // a quad bent too far: worse than two good triangles
 constexpr double least_cosine = 0.3;
 constexpr double averse = 30;      // for each corner where the cosine to the surface is below that
 constexpr double folded = 1e3;     // only where nothing else is left
@@ -52,36 +53,52 @@ void RegionCorners::add(const NetworkGraph& network, int n) {
 
 PolygonJudge::PolygonJudge(const SurfaceRef& surface, const SurfaceLocator& locator,
                            const SurfaceNormals& normals, const JudgeOptions& options)
-    : surface_(surface), locator_(locator), normals_(normals), options_(options) {}
+    : surface_(surface), locator_(locator), normals_(normals), directions_(surface), options_(options) {}
 
 Vec3d PolygonJudge::surface_normal(const Vec2d& uv, const Vec3d& place, OpenMesh::FaceHandle start) const {
   return normals_.at(locator_.locate(uv, place, start));
 }
 
-double PolygonJudge::chord_error(const RegionCorners& region, int a, int b) const {
+bool PolygonJudge::middle_of(const RegionCorners& region, int a, int b, Vec3d& place,
+                             SurfacePoint& below) const {
   bool inside = false;
-  const Vec3d middle = 0.5 * (region.position[at(a)] + region.position[at(b)]);
-  const SurfacePoint p =
-      locator_.locate(0.5 * (region.uv[at(a)] + region.uv[at(b)]), middle, region.face[at(a)], &inside);
-  if (!inside) return 0;
+  place = 0.5 * (region.position[at(a)] + region.position[at(b)]);
+  below = locator_.locate(0.5 * (region.uv[at(a)] + region.uv[at(b)]), place, region.face[at(a)], &inside);
+  return inside;
+}
+
+double PolygonJudge::error_at(const RegionCorners& region, const Vec3d& place,
+                              const SurfacePoint& below) const {
+  const Vec3d off = position(surface_, below) - place;
   // A chord across a hole may lie in the plane of what is around the hole.
-  if (region.on_surface) return (position(surface_, p) - middle).norm();
-  const auto c = surface_.corners(p.face);
+  if (region.on_surface) return off.norm();
+  const auto c = surface_.corners(below.face);
   const Vec3d normal = cross(surface_.point(c.vertex[1]) - surface_.point(c.vertex[0]),
                              surface_.point(c.vertex[2]) - surface_.point(c.vertex[0]));
   const double length = normal.norm();
-  if (!(length > 0)) return 0;
-  const Vec3d off = position(surface_, p) - middle;
-  return std::abs(off | normal) / length;
+  return length > 0 ? std::abs(off | normal) / length : 0;
 }
 
-double PolygonJudge::error_cost(const RegionCorners& region, int a, int b) const {
+double PolygonJudge::chord_error(const RegionCorners& region, int a, int b) const {
+  Vec3d place;
+  SurfacePoint below;
+  return middle_of(region, a, b, place, below) ? error_at(region, place, below) : 0;
+}
+
+double PolygonJudge::error_cost(double error) const {
   if (!(options_.epsilon > 0) || !std::isfinite(options_.epsilon)) return 0;
-  return error_weight * std::min(chord_error(region, a, b) / options_.epsilon, options_.max_error_ratio);
+  return error_weight * std::min(error / options_.epsilon, options_.max_error_ratio);
 }
 
 double PolygonJudge::chord_cost(const RegionCorners& region, int a, int b) const {
-  return 0.5 * error_cost(region, a, b) + (region.is_forbidden(a, b) ? forbidden : 0);
+  Vec3d place;
+  SurfacePoint below;
+  double cost = region.is_forbidden(a, b) ? forbidden : 0;
+  if (middle_of(region, a, b, place, below))
+    cost +=
+        0.5 * error_cost(error_at(region, place, below)) +
+        0.5 * align_weight * directions_.misalignment(below, region.position[at(b)] - region.position[at(a)]);
+  return cost;
 }
 
 // Which way the surface faces at some corners; where all lie on features, in the region.
@@ -147,7 +164,7 @@ double PolygonJudge::quad_cost(const RegionCorners& region, const std::array<int
   const Vec3d n1 = cross(b - a, c - a), n2 = cross(c - a, d - a);
   const double bend = std::atan2(cross(n1, n2).norm(), n1 | n2);
   if (bend > options_.max_bend_degrees * degree) cost += bent;
-  cost += error_cost(region, quad[first_corner], quad[first_corner + 2]);
+  cost += error_cost(chord_error(region, quad[first_corner], quad[first_corner + 2]));
   for (size_t k = 0; k < 4; ++k)
     if (!region.is_side(quad[k], quad[(k + 1) % 4])) cost += chord_cost(region, quad[k], quad[(k + 1) % 4]);
   return cost;

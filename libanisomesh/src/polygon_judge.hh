@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <vector>
 
+#include "line_directions.hh"
 #include "network_graph.hh"
 
 namespace anisomesh::detail {
@@ -74,13 +75,17 @@ class PolygonJudge {
  private:
   /// Of an inner side of a polygon, which is a side of two.
   double chord_cost(const RegionCorners& region, int a, int b) const;
-  double error_cost(const RegionCorners& region, int a, int b) const;
+  double error_cost(double error) const;
+  /// Where the surface is below the middle of a chord; false if beyond its border.
+  bool middle_of(const RegionCorners& region, int a, int b, Vec3d& place, SurfacePoint& below) const;
+  double error_at(const RegionCorners& region, const Vec3d& place, const SurfacePoint& below) const;
   static int against(const RegionCorners& region, std::initializer_list<int> corners, const Vec3d& area);
   static Vec3d reference_normal(const RegionCorners& region, std::initializer_list<int> corners);
 
   const SurfaceRef& surface_;
   const SurfaceLocator& locator_;
   const SurfaceNormals& normals_;
+  LineDirections directions_;
   JudgeOptions options_;
 };
 

@@ -1,0 +1,55 @@
+#include "line_directions.hh"
+
+#include <algorithm>
+#include <cmath>
+
+#include "anisomesh/properties.hh"
+#include "linear_field.hh"
+#include "numerics/tensor3d.hh"
+
+namespace anisomesh::detail {
+
+namespace {
+
+constexpr double anisotropy_from = 0.1, anisotropy_full = 0.4;  // as where the fit turns edges
+
+}  // namespace
+
+LineDirections::LineDirections(const SurfaceRef& surface) : surface_(surface) {
+  const auto& mesh = surface.connectivity();
+  const bool smoothed = has_property(mesh, property::surface_tensor);
+  if (!smoothed && !has_property(mesh, property::tensor)) return;
+  const auto tensor = require_property(mesh, smoothed ? property::surface_tensor : property::tensor);
+  tensors_.reserve(mesh.n_vertices());
+  for (const auto v : mesh.vertices()) tensors_.push_back(mesh.property(tensor, v));
+  if (has_property(mesh, property::follow))
+    follow_ = static_cast<Follow>(mesh.property(require_property(mesh, property::follow)));
+}
+
+double LineDirections::misalignment(const SurfacePoint& point, const Vec3d& along) const {
+  if (tensors_.empty()) return 0;
+  const auto corners = surface_.corners(point.face);
+  const Vec3d &p = surface_.point(corners.vertex[0]), &q = surface_.point(corners.vertex[1]),
+              &r = surface_.point(corners.vertex[2]);
+  const Vec3d normal = cross(q - p, r - p);
+  const double area = normal.norm();
+  if (!(area > 0)) return 0;
+  Vec6d sum(0.0);
+  for (size_t k = 0; k < 3; ++k)
+    sum += point.barycentric[k] * tensors_[static_cast<size_t>(corners.vertex[k].idx())];
+  const TangentFrame frame(normal / area);
+  const Vec3d t = followed(in_frame(sum, frame), follow_);
+  const double mean = 0.5 * (t[0] + t[2]), half = 0.5 * (t[0] - t[2]), deviator = std::hypot(half, t[1]);
+  const double k = std::abs(mean - deviator), l = std::abs(mean + deviator);
+  if (!(deviator > 0) || !(k + l > 0)) return 0;
+  const double anisotropy = std::abs(k - l) / (k + l);
+  const double sure =
+      std::clamp((anisotropy - anisotropy_from) / (anisotropy_full - anisotropy_from), 0.0, 1.0);
+  // The deviator and the edge, both by twice their angle.
+  const double a = along | frame.u, b = along | frame.v, squared = a * a + b * b;
+  if (!(squared > 0)) return 0;
+  const double sine = (half * 2 * a * b - t[1] * (a * a - b * b)) / (deviator * squared);
+  return sure * sine * sine;
+}
+
+}  // namespace anisomesh::detail
