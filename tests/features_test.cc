@@ -1,7 +1,10 @@
 #include "anisomesh/features.hh"
 
+#include "anisomesh/errors.hh"
+#include "anisomesh/io.hh"
 #include "anisomesh/shapes.hh"
 #include "catch.hh"
+#include "data.hh"
 
 using namespace anisomesh;
 
@@ -26,6 +29,38 @@ OpenMesh::TriMesh folded_sheet(int n, double fold_degrees) {
 }
 
 }  // namespace
+
+TEST_CASE("automatic features are those of parts, and a scan has none", "[features]") {
+  FeatureOptions options;
+  options.automatic = true;
+  auto cube = make_shape("cube", {});
+  const auto of_cube = tag_features(cube, options);
+  CHECK(of_cube.angle_degrees == 40);
+  double length = 0;
+  for (const auto e : cube.edges())
+    if (cube.status(e).feature()) length += cube.calc_edge_length(e);
+  CHECK(length == Approx(12 * 2));
+  auto sphere = make_shape("sphere", {});
+  const auto of_sphere = tag_features(sphere, options);
+  CHECK(of_sphere.angle_degrees == 0);
+  CHECK(of_sphere.feature_edges == 0);
+  options.angle_degrees = 30;
+  CHECK_THROWS_AS(tag_features(sphere, options), InvalidOption);
+}
+
+TEST_CASE("real parts and scans are told apart", "[features][data]") {
+  FeatureOptions options;
+  options.automatic = true;
+  const std::vector<std::pair<std::string, bool>> meshes{
+      {"anchor.off", true}, {"couplingdown.off", true}, {"lion-head.off", false}, {"elephant.off", false}};
+  for (const auto& [name, is_part] : meshes) {
+    const auto path = demo_mesh(name);
+    if (!path) return skip(name);
+    auto mesh = read_surface(*path);
+    INFO(name);
+    CHECK((tag_features(mesh, options).by_angle > 0) == is_part);
+  }
+}
 
 TEST_CASE("an edge is a feature where the normals turn by more than the angle", "[features]") {
   for (const double sign : {1.0, -1.0}) {

@@ -41,13 +41,16 @@ void add_fill_option(Command& command, FillOptions& options) {
 
 void add_feature_options(Command& command, FeatureFlags& flags) {
   CLI::App& app = command.arguments();
-  app.add_option_function<double>(
+  app.add_option_function<std::string>(
          "--feature-angle",
-         [&flags](const double& degrees) {
-           flags.angle_degrees = degrees;
+         [&flags](const std::string& text) {
            flags.angle_given = true;
+           flags.automatic = text == "auto";
+           if (!flags.automatic && !CLI::detail::lexical_cast(text, flags.angle_degrees))
+             throw CLI::ValidationError("--feature-angle", "'" + text + "' is neither a number nor auto");
          },
-         "Tag edges whose faces' normals differ by more than this, in degrees; 0: none")
+         "Tag edges whose faces' normals differ by more than this, in degrees; 0: none; auto: 40 on parts "
+         "that have sharp edges and little in between, none elsewhere")
       ->default_str("0")
       ->type_name("DEG")
       ->group("Features");
@@ -62,9 +65,9 @@ void add_feature_options(Command& command, FeatureFlags& flags) {
 void warn_of_sharp_edges(const Command& command, const FeatureFlags& flags,
                          const anisomesh::FeatureReport& report) {
   if (flags.angle_given || report.feature_edges > 0 || !report.is_mechanical()) return;
-  command.warn(
-      "sharp edges make up " + std::to_string(static_cast<int>(std::lround(100 * report.sharp))) +
-      " % of all edges and none is kept; --feature-angle 40 keeps them, --feature-angle 0 ends this warning");
+  command.warn("sharp edges make up " + std::to_string(static_cast<int>(std::lround(100 * report.sharp))) +
+               " % of all edges and none is kept; --feature-angle auto keeps them, --feature-angle 0 ends "
+               "this warning");
 }
 
 void add_curvature_options(Command& command, CurvatureOptions& options) {
@@ -240,6 +243,7 @@ void add_max_error_option(Command& command, MaxErrorOptions& options) {
 FeatureOptions resolve(const FeatureFlags& flags, const ReadReport& read) {
   FeatureOptions options;
   options.angle_degrees = flags.angle_degrees;
+  options.automatic = flags.automatic;
   options.keep_existing = !flags.only_new;
   if (flags.file.empty()) return options;
   options.edges = read_feature_edges(flags.file);

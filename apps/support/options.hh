@@ -14,6 +14,7 @@ namespace apps {
 struct FeatureFlags {
   double angle_degrees = 0;
   bool angle_given = false;
+  bool automatic = false;
   std::string file;
   bool only_new = false;
 };

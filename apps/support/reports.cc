@@ -28,6 +28,7 @@ Json to_json(const FillReport& r) {
 Json to_json(const FeatureReport& r) {
   return {{"feature_edges", r.feature_edges},
           {"by_angle", r.by_angle},
+          {"angle_degrees", r.angle_degrees},
           {"by_list", r.by_list},
           {"sharp", r.sharp},
           {"rounded", r.rounded},

@@ -167,6 +167,9 @@ class SkeletonBuilder {
 void FeatureOptions::validate() const {
   if (!(angle_degrees >= 0 && angle_degrees < 180))
     throw InvalidOption("angle_degrees is " + std::to_string(angle_degrees) + ", must be in [0, 180)");
+  if (automatic && angle_degrees > 0)
+    throw InvalidOption("angle_degrees is " + std::to_string(angle_degrees) +
+                        " and automatic is set: give one");
 }
 
 FeatureReport tag_features(const SurfaceRef& surface, const FeatureOptions& options) {
@@ -179,10 +182,10 @@ FeatureReport tag_features(const SurfaceRef& surface, const FeatureOptions& opti
     for (const auto e : mesh.edges()) tagged[static_cast<size_t>(e.idx())] = mesh.status(e).feature();
   for (const auto e : listed_edges(mesh, options.edges)) tagged[static_cast<size_t>(e.idx())] |= 2;
   double length = 0;
+  std::vector<double> turns(mesh.n_edges(), 0);
   for (const auto e : mesh.edges()) {
     if (mesh.is_boundary(e)) continue;
-    const double turn = turn_at(surface, e);
-    if (options.angle_degrees > 0 && turn > options.angle_degrees) tagged[static_cast<size_t>(e.idx())] |= 4;
+    const double turn = turns[static_cast<size_t>(e.idx())] = turn_at(surface, e);
     const double l = direction(surface, mesh.halfedge_handle(e, 0)).norm();
     length += l;
     if (turn > sharp_degrees)
@@ -194,6 +197,11 @@ FeatureReport tag_features(const SurfaceRef& surface, const FeatureOptions& opti
     report.sharp /= length;
     report.rounded /= length;
   }
+  report.angle_degrees =
+      options.automatic ? (report.is_mechanical() ? sharp_degrees : 0) : options.angle_degrees;
+  if (report.angle_degrees > 0)
+    for (size_t e = 0; e < turns.size(); ++e)
+      if (turns[e] > report.angle_degrees) tagged[e] |= 4;
   if (!mesh.has_edge_status()) mesh.request_edge_status();
   for (const auto e : mesh.edges()) {
     const char tag = tagged[static_cast<size_t>(e.idx())];

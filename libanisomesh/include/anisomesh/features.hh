@@ -12,6 +12,9 @@ namespace anisomesh {
 struct FeatureOptions {
   double angle_degrees =
       0;  ///< tag an edge when its faces' normals differ by more than this; 0 tags none by angle; [0, 180)
+  /// Tag what turns by more than 40 degrees where FeatureReport::is_mechanical() holds, and none by angle
+  /// elsewhere; angle_degrees must be 0.
+  bool automatic = false;
   std::vector<std::pair<int, int>> edges;  ///< vertex index pairs to tag; each must be an edge of the mesh
   bool keep_existing = true;               ///< keep the tags that are already on the mesh
   void validate() const;                   ///< \throw InvalidOption
@@ -20,9 +23,10 @@ struct FeatureOptions {
 struct FeatureReport {
   size_t feature_edges = 0;  ///< tagged after the call, border edges not counted
   size_t by_angle = 0;       ///< of these, edges the angle asks for
+  double angle_degrees = 0;  ///< that was tagged by; 0: none
   size_t by_list = 0;        ///< of these, edges of FeatureOptions::edges
-  double sharp = 0;    ///< of the length of all edges inside, how much turns by more than 40 degrees
-  double rounded = 0;  ///< likewise by 20 to 40 degrees
+  double sharp = 0;          ///< of the length of all edges inside, how much turns by more than 40 degrees
+  double rounded = 0;        ///< likewise by 20 to 40 degrees
   double seconds = 0;
   /// Sharp edges and little in between: a part that was made, not grown or scanned. Over the 62 meshes of
   /// libcgal-demo with 400 to 40,000 triangles this tells them apart (docs/features.md).
