@@ -64,7 +64,7 @@ class SurfaceDrawing final : public Drawing {
  private:
   // Coarsened already, but for a network that is to keep vertices which have gone.
   MeshEmbedding embedding_for(const NetworkGraph& network) const {
-    const auto is_kept = [](double share) { return share <= MeshEmbedding::kept_share; };
+    const auto is_kept = [](double share) { return share <= kept_share; };
     if (std::none_of(network.share.begin(), network.share.end(), is_kept)) return *embedding_;
     MeshEmbedding embedding(surface_, overlay_lines(surface_, lines_, corner_angle_), network);
     embedding.coarsen(network, tolerance_);

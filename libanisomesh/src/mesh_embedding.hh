@@ -26,8 +26,6 @@ using OverlayMesh = OpenMesh::TriMesh_ArrayKernelT<OverlayTraits>;
 /// the map from the surface to the triangles. Nodes keep their index. Copies are independent.
 class MeshEmbedding final : public Embedding {
  public:
-  static constexpr double kept_share = 1.0 / 16;
-
   MeshEmbedding(const SurfaceRef& surface, const Overlay& overlay, const NetworkGraph& network);
 
   bool straighten(int a, int node, int b) override;
@@ -36,7 +34,7 @@ class MeshEmbedding final : public Embedding {
 
   /// Takes out the nodes that no edge of the network leads to and that need not stay, as far as the topology
   /// allows and what is pinned stays within the tolerance (model units) of the triangles; but no vertex of
-  /// the surface where the share of the tolerances that holds is as small as kept_share.
+  /// the surface where no more than kept_share of the tolerances holds.
   void coarsen(const NetworkGraph& network, double tolerance);
 
   /// Flips edges that are not the network's until the triangles are well shaped (Delaunay's rule, over the

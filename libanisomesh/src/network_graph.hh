@@ -11,6 +11,10 @@
 
 namespace anisomesh::detail {
 
+/// Where no more than this share of the tolerances holds, samples and vertices of the input stay where they
+/// are: the last thing that is tried for sound polygons.
+constexpr double kept_share = 1.0 / 64;
+
 /// A graph whose nodes are points of the surface. Edge kinds are EdgeKind.
 struct NetworkGraph {
   bool planar = true;  ///< drawn in the plane; otherwise on the surface, and uv means nothing

@@ -17,8 +17,7 @@ size_t at(int i) { return static_cast<size_t>(i); }
 constexpr size_t max_added = 100;      // per region, or as many as it has samples; a bound, not a rule
 constexpr double edge_distance = 0.3;  // of the region's size: nearer to its border a new vertex weighs less
 constexpr int flip_passes = 8;
-// Where so little of the tolerances was no help, more samples are none either, and those that are there stay.
-constexpr double least_share = 0.1;
+constexpr double least_share = 0.1;  // of the tolerance: more samples than it asks for are no help
 
 double turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -189,7 +188,7 @@ RegionPolygons RegionMesher::run() {
   if (region_.simple) {
     result.convex = PolygonJudge::is_convex(
         {corners_.position.begin(), corners_.position.begin() + static_cast<std::ptrdiff_t>(corners_.loop)});
-    if ((bounded && region_.share > least_share) || region_.isotropic == 0) {
+    if ((bounded && region_.share > kept_share) || region_.isotropic == 0) {
       result.polygons = partition_region(corners_, judge_, options_.partition);
       const auto drawn = as_drawn(result.polygons);
       const bool near = std::all_of(region_.probes.begin(), region_.probes.end(),
