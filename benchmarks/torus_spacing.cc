@@ -24,6 +24,7 @@
 #include "anisomesh/smoothing.hh"
 #include "anisomesh/umbilics.hh"
 #include "bench.hh"
+#include "half_torus.hh"
 
 using namespace anisomesh;
 
@@ -34,25 +35,6 @@ constexpr double slit = 170 * pi / 180;  // the tube of make_shape("half-torus")
 constexpr double tube_radius = 0.4, tolerance = 0.25;
 
 double axis_distance(double tube) { return 1 + tube_radius * std::cos(tube); }
-
-/// One circle of curvature: constant in one angle, over a range of the other.
-struct Arc {
-  double at = 0, from = 0, to = 0;
-};
-
-/// The circle that most of a line lies on.
-Arc as_arc(const SurfaceRef& surface, const Line& line) {
-  std::vector<double> across, along;
-  for (const auto& point : line.points) {
-    const Vec3d p = position(surface, point);
-    const double tube = std::atan2(p[2], std::hypot(p[0], p[1]) - 1), around = std::atan2(p[1], p[0]);
-    across.push_back(line.kind == LineKind::max ? around : tube);
-    along.push_back(line.kind == LineKind::max ? tube : around);
-  }
-  std::nth_element(across.begin(), across.begin() + across.size() / 2, across.end());
-  const auto ends = std::minmax_element(along.begin(), along.end());
-  return {across[across.size() / 2], *ends.first, *ends.second};
-}
 
 /// What is wanted between two circles at a place of the tube: by equation 6, as docs/density.md bounds it, or
 /// graded, which is what lines are placed by.
@@ -103,7 +85,7 @@ struct Shares {
 };
 
 /// Crosses the lines of a kind at many levels of the other angle; border lines count as lines.
-Shares measure(const std::vector<Arc>& arcs, LineKind kind, const Wanted& wanted) {
+Shares measure(const std::vector<CircleArc>& arcs, LineKind kind, const Wanted& wanted) {
   const double begin = kind == LineKind::max ? -slit : 0, end = kind == LineKind::max ? slit : pi;
   const double low = kind == LineKind::max ? 0 : -slit, high = kind == LineKind::max ? pi : slit;
   constexpr int levels = 2000;
@@ -111,7 +93,7 @@ Shares measure(const std::vector<Arc>& arcs, LineKind kind, const Wanted& wanted
   for (int i = 0; i < levels; ++i) {
     const double level = begin + (end - begin) * (i + 0.5) / levels;
     std::vector<double> cuts{low, high};
-    for (const Arc& arc : arcs)
+    for (const CircleArc& arc : arcs)
       if (arc.from <= level && level <= arc.to) cuts.push_back(std::clamp(arc.at, low, high));
     std::sort(cuts.begin(), cuts.end());
     for (size_t j = 1; j < cuts.size(); ++j) {
@@ -206,9 +188,9 @@ int main(int argc, char** argv) {
   const SurfaceRef surface = mesh;
   const Density density(options.density, surface.diagonal(), 0);
 
-  std::vector<Arc> arcs[2];
+  std::vector<CircleArc> arcs[2];
   for (const Line& line : read_lines(mesh).lines)
-    arcs[static_cast<int>(line.kind)].push_back(as_arc(surface, line));
+    arcs[static_cast<int>(line.kind)].push_back(circle_arc(surface, line));
   std::printf("| wanted by | lines | number | within 25 %%, by surface | by line |\n|---|---|---|---|---|\n");
   const double equation6 = std::numeric_limits<double>::infinity();
   for (const double slope : {equation6, options.density.max_slope}) {

@@ -5,6 +5,7 @@
 
 #include "anisomesh/lines.hh"
 #include "catch.hh"
+#include "half_torus.hh"
 #include "traced_surface.hh"
 
 using namespace anisomesh;
@@ -102,23 +103,6 @@ TEST_CASE("lines on a half torus are its circles", "[trace]") {
 }
 
 namespace {
-
-// A line of curvature of the half torus: the circle of one angle, over a range of the other.
-struct CircleArc {
-  double at = 0, from = 0, to = 0;
-};
-
-CircleArc circle_arc(const SurfaceRef& surface, const Line& line) {
-  std::vector<double> across, along;
-  for (const Vec3d& p : positions(surface, line)) {
-    const double tube = std::atan2(p[2], std::hypot(p[0], p[1]) - 1), around = std::atan2(p[1], p[0]);
-    across.push_back(line.kind == LineKind::max ? around : tube);
-    along.push_back(line.kind == LineKind::max ? tube : around);
-  }
-  std::nth_element(across.begin(), across.begin() + across.size() / 2, across.end());
-  const auto ends = std::minmax_element(along.begin(), along.end());
-  return {across[across.size() / 2], *ends.first, *ends.second};
-}
 
 struct GapCount {
   double within = 0, all = 0, area_within = 0, area = 0;

@@ -42,11 +42,11 @@ void add_fit_options(Command& command, anisomesh::FitOptions& fit, anisomesh::Ba
 /// --max-error.
 void add_max_error_option(Command& command, anisomesh::MaxErrorOptions& options);
 
-/// Reads --feature-file; its vertices are those of the file, before anything was dropped on reading.
-/// \throw InvalidInput
 /// A warning where a part with sharp edges is taken without features and nothing was said of them.
 void warn_of_sharp_edges(const Command& command, const FeatureFlags& flags,
                          const anisomesh::FeatureReport& report);
+/// Reads --feature-file; its vertices are those of the file, before anything was dropped on reading.
+/// \throw InvalidInput
 anisomesh::FeatureOptions resolve(const FeatureFlags& flags, const anisomesh::ReadReport& read);
 /// The fraction of the diagonal.
 double resolve(const EpsilonFlags& flags, const anisomesh::SurfaceRef& surface);

@@ -14,9 +14,6 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-// Anisotropy from which on sides are turned to the principal directions, and where they are so fully.
-constexpr double anisotropy_from = 0.1, anisotropy_full = 0.4;
-
 // Corners (0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0).
 constexpr std::array<std::array<int, 2>, 6> corner_pair{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 
@@ -98,8 +95,7 @@ void add_turn(const FitMesh::Side& side, const SideTensor& curvature, const Vec3
               double align_weight, Follow follow, const std::vector<Vec3d>& points, FitSystem& system) {
   const TangentFrame frame(normal);
   const Orientation lines = orientation(followed(in_frame(curvature.tensor, frame), follow));
-  const double sure =
-      std::clamp((lines.anisotropy - anisotropy_from) / (anisotropy_full - anisotropy_from), 0.0, 1.0);
+  const double sure = lines.certainty();
   if (!(sure > 0)) return;
   const Vec3d first = std::cos(lines.angle) * frame.u + std::sin(lines.angle) * frame.v,
               second = cross(normal, first);

@@ -1,19 +1,11 @@
 #include "line_directions.hh"
 
-#include <algorithm>
-#include <cmath>
-
 #include "anisomesh/properties.hh"
 #include "linear_field.hh"
+#include "numerics/tensor2d.hh"
 #include "numerics/tensor3d.hh"
 
 namespace anisomesh::detail {
-
-namespace {
-
-constexpr double anisotropy_from = 0.1, anisotropy_full = 0.4;  // as where the fit turns edges
-
-}  // namespace
 
 LineDirections::LineDirections(const SurfaceRef& surface) : surface_(surface) {
   const auto& mesh = surface.connectivity();
@@ -39,16 +31,13 @@ double LineDirections::misalignment(const SurfacePoint& point, const Vec3d& alon
     sum += point.barycentric[k] * tensors_[static_cast<size_t>(corners.vertex[k].idx())];
   const TangentFrame frame(normal / area);
   const Vec3d t = followed(in_frame(sum, frame), follow_);
-  const double mean = 0.5 * (t[0] + t[2]), half = 0.5 * (t[0] - t[2]), deviator = std::hypot(half, t[1]);
-  const double k = std::abs(mean - deviator), l = std::abs(mean + deviator);
-  if (!(deviator > 0) || !(k + l > 0)) return 0;
-  const double anisotropy = std::abs(k - l) / (k + l);
-  const double sure =
-      std::clamp((anisotropy - anisotropy_from) / (anisotropy_full - anisotropy_from), 0.0, 1.0);
+  const double sure = orientation(t).certainty(), norm = deviator_norm(t);
+  if (!(sure > 0) || !(norm > 0)) return 0;
   // The deviator and the edge, both by twice their angle.
   const double a = along | frame.u, b = along | frame.v, squared = a * a + b * b;
   if (!(squared > 0)) return 0;
-  const double sine = (half * 2 * a * b - t[1] * (a * a - b * b)) / (deviator * squared);
+  const Vec2d d = deviator(t);
+  const double sine = (d[0] * 2 * a * b - d[1] * (a * a - b * b)) / (norm * squared);
   return sure * sine * sine;
 }
 

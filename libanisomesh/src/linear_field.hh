@@ -1,6 +1,7 @@
 // A tensor field that is linear in a triangle: how it turns, and how lines leave its umbilic.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -16,6 +17,8 @@ Vec3d followed(const Vec3d& tensor, Follow follow);
 struct Orientation {
   double angle = 0;       ///< of the eigenvector of the larger eigenvalue, radians
   double anisotropy = 0;  ///< (|k_large| - |k_small|) / (|k_large| + |k_small|), by magnitude
+  /// How far the angle means anything, 0 to 1: none of it below an anisotropy of 0.1, all above 0.4.
+  double certainty() const { return std::clamp((anisotropy - 0.1) / (0.4 - 0.1), 0.0, 1.0); }
 };
 Orientation orientation(const Vec3d& tensor);
 
