@@ -321,6 +321,40 @@ TEST_CASE("every end of a line has its reason, and random checks find few gaps",
   CHECK(report.ends[static_cast<int>(LineEnd::step_limit)] == 0);
 }
 
+TEST_CASE("a trace cancelled at any point asks no more, and leaves the lines as they were", "[trace]") {
+  auto mesh = traced::shape("wave", 3000);
+  TraceOptions coarse;
+  coarse.density.epsilon_fraction = 0.01;
+  trace_lines(mesh, coarse);
+  const LineNetwork before = read_lines(mesh);
+  const double epsilon = mesh.property(require_property(mesh, property::epsilon));
+  for (const size_t relax_passes : {0, 1})
+    for (const double stop : {0.05, 0.3, 0.45, 0.55, 0.7, 0.95, 1.0}) {
+      TraceOptions options;
+      options.relax_passes = relax_passes;
+      size_t after = 0;
+      bool stopped = false;
+      const auto until_there = [&](double fraction) {
+        if (stopped) ++after;
+        stopped = stopped || fraction >= stop;
+        return !stopped;
+      };
+      INFO("stopped at " << stop << " with " << relax_passes << " passes");
+      CHECK_THROWS_AS(trace_lines(mesh, options, until_there), Cancelled);
+      CHECK(after == 0);
+      const LineNetwork kept = read_lines(mesh);
+      REQUIRE(kept.lines.size() == before.lines.size());
+      bool same = mesh.property(require_property(mesh, property::epsilon)) == epsilon;
+      for (size_t i = 0; i < kept.lines.size(); ++i) {
+        const auto &a = kept.lines[i].points, &b = before.lines[i].points;
+        same = same && std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& p, const auto& q) {
+                 return p.face == q.face && p.barycentric == q.barycentric;
+               });
+      }
+      CHECK(same);
+    }
+}
+
 TEST_CASE("a cancelled or refused trace leaves the mesh as it was", "[trace]") {
   auto mesh = traced::square(20, straight());
   CHECK_THROWS_AS(trace_lines(mesh, {}, [](double) { return false; }), Cancelled);

@@ -13,6 +13,7 @@ constexpr double kOffFence =
     0.02;                       // of the distance searched: a line that starts nearer has no room to begin
 constexpr double kReach = 2.5;  // spacings: seeds look about one around themselves, of a place less dense
 constexpr double kSeedEvery = 0.5;  // spacings along a line between the seeds beside it
+constexpr size_t kAskEvery = 256;   // candidates: whether to go on
 constexpr double kParallel = 0.94;  // cosine: a fence this parallel to a line counts as a line
 
 LineKind other(LineKind kind) { return kind == LineKind::min ? LineKind::max : LineKind::min; }
@@ -57,6 +58,8 @@ class Placement {
   bool trace_queue();
   bool check_coverage();
   bool keep(TracedLine line);
+  bool is_going_on() const { return going_on_(std::min(1.0, covered_ / sampler_.total_area())); }
+  bool looked_at_many();
   double clearance(const SurfacePoint& at, double bound) const;
   Seed seed_at(const Candidate& candidate) const;
   Seed continued(const SurfacePoint& beyond) const;
@@ -71,7 +74,7 @@ class Placement {
   LineTracer tracer_;
   AreaSampler sampler_;
   std::priority_queue<Candidate> queue_;
-  size_t candidates_ = 0;
+  size_t candidates_ = 0, looked_at_ = 0;
   int next_id_ = 0;
   double covered_ = 0;
   PlacedLines result_;
@@ -167,8 +170,11 @@ bool Placement::keep(TracedLine line) {
     covered_ += std::abs(line.points[i].arc - line.points[i - 1].arc) * s * s;
   }
   result_.lines.push_back(std::move(line));
-  return going_on_(std::min(1.0, covered_ / sampler_.total_area()));
+  return is_going_on();
 }
+
+// Candidates and samples can be many without a line among them. \return whether to go on
+bool Placement::looked_at_many() { return ++looked_at_ % kAskEvery != 0 || is_going_on(); }
 
 // Lines from umbilics, the most curved first.
 bool Placement::trace_umbilics() {
@@ -208,6 +214,7 @@ bool Placement::trace_queue() {
   while (!queue_.empty()) {
     Candidate candidate = queue_.top();
     queue_.pop();
+    if (!looked_at_many()) return false;
     const Seed seed = seed_at(candidate);
     if (!seed.fits) continue;
     if (seed.misfit > candidate.misfit + 0.02) {
@@ -231,6 +238,7 @@ bool Placement::check_coverage() {
   }
   const size_t samples = 50 + static_cast<size_t>(2 * cells);
   for (size_t i = 0; i < samples; ++i) {
+    if (!looked_at_many()) return false;
     const SurfacePoint at = sampler_.next();
     if (domain_.isotropic(at)) continue;
     const double spacing = domain_.spacing(kind_, at);

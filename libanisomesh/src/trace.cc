@@ -1,16 +1,14 @@
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
-#include <atomic>
 #include <chrono>
+#include <functional>
 #include <string>
-#include <thread>
 
 #include "anisomesh/lines.hh"
 #include "anisomesh/properties.hh"
 #include "line_placement.hh"
 #include "line_relaxation.hh"
 #include "make_domain.hh"
+#include "two_jobs.hh"
 
 namespace anisomesh {
 
@@ -29,52 +27,19 @@ Line as_line(const detail::TracedLine& traced, LineKind kind) {
   return line;
 }
 
-// Both kinds at once; they know nothing of each other, so that the result is that of one after the other.
-class BothKinds {
- public:
-  BothKinds(const SurfaceRef& surface, const detail::Domain& domain, const TraceOptions& options,
-            const Progress& progress)
-      : surface_(surface),
-        domain_(domain),
-        options_(options),
-        progress_(progress),
-        caller_(std::this_thread::get_id()) {}
-
-  void run() {
-    tbb::parallel_invoke([this] { place(LineKind::min); }, [this] { place(LineKind::max); });
-    if (cancelled_) throw Cancelled();
-  }
-
-  detail::PlacedLines placed[2];
-
- private:
-  void place(LineKind kind) {
-    const int k = static_cast<int>(kind);
-    const double passes = static_cast<double>(options_.relax_passes);
-    const auto reached = [this, k](double fraction) {
-      done_[k] = fraction;
-      if (progress_ && std::this_thread::get_id() == caller_ && !progress_(0.5 * (done_[0] + done_[1])))
-        cancelled_ = true;
-      return !cancelled_;
-    };
-    // A pass takes about as long as to place the lines.
-    placed[k] = detail::place_lines(domain_, kind, options_,
-                                    [&](double fraction) { return reached(fraction / (1 + passes)); });
-    if (passes > 0 && !cancelled_)
-      placed[k].lines = detail::relax_lines(
-          surface_, domain_, kind, options_, std::move(placed[k].lines),
-          [&](double fraction) { return reached((1 + passes * fraction) / (1 + passes)); });
-    done_[k] = 1;
-  }
-
-  const SurfaceRef& surface_;
-  const detail::Domain& domain_;
-  const TraceOptions& options_;
-  const Progress& progress_;
-  std::thread::id caller_;
-  std::atomic<double> done_[2] = {0, 0};
-  std::atomic<bool> cancelled_{false};
-};
+// A pass of relaxing takes about as long as to place the lines.
+detail::PlacedLines lines_of_kind(const SurfaceRef& surface, const detail::Domain& domain, LineKind kind,
+                                  const TraceOptions& options, const std::function<bool(double)>& going_on) {
+  const double passes = static_cast<double>(options.relax_passes);
+  bool whole = true;
+  const auto reached = [&](double fraction) { return whole = going_on(fraction / (1 + passes)); };
+  detail::PlacedLines placed = detail::place_lines(domain, kind, options, reached);
+  if (passes > 0 && whole)
+    placed.lines = detail::relax_lines(
+        surface, domain, kind, options, std::move(placed.lines),
+        [&](double fraction) { return going_on((1 + passes * fraction) / (1 + passes)); });
+  return placed;
+}
 
 }  // namespace
 
@@ -97,13 +62,18 @@ TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& given, co
     options.seed_fraction = std::max(options.stop_fraction, seed_fraction_by_epsilon);
   const auto domain = detail::make_domain(surface, options.density, options.follow);
   report_progress(progress, 0);
-  BothKinds both(surface, *domain, options, progress);
-  both.run();
+  detail::PlacedLines both[2];  // they know nothing of each other: the same as one after the other
+  const auto place = [&](LineKind kind) {
+    return [&, kind](const std::function<bool(double)>& going_on) {
+      both[static_cast<int>(kind)] = lines_of_kind(surface, *domain, kind, options, going_on);
+    };
+  };
+  detail::run_both(place(LineKind::min), place(LineKind::max), progress);
 
   TraceReport report;
   LineNetwork network;
   for (const LineKind kind : {LineKind::min, LineKind::max}) {
-    const auto& placed = both.placed[static_cast<int>(kind)];
+    const auto& placed = both[static_cast<int>(kind)];
     for (const auto& traced : placed.lines) {
       network.lines.push_back(as_line(traced, kind));
       report.points += traced.points.size();
