@@ -6,9 +6,12 @@
 #include <CGAL/partition_2.h>
 #include <CGAL/property_map.h>
 
+#include <algorithm>
 #include <exception>
 #include <iterator>
 #include <list>
+#include <utility>
+#include <vector>
 
 namespace anisomesh::detail {
 
@@ -22,31 +25,22 @@ using Piece = Traits::Polygon_2;
 
 // Pieces must use every edge of the polygon once and every cut twice, in opposite directions.
 bool fits(const std::vector<std::vector<int>>& pieces, size_t n) {
-  std::vector<char> boundary(n, 0);
-  std::vector<std::pair<size_t, size_t>> cuts;
+  using Edge = std::pair<size_t, size_t>;
+  std::vector<Edge> edges;
   for (const auto& piece : pieces) {
     if (piece.size() < 3) return false;
-    for (size_t i = 0; i < piece.size(); ++i) {
-      const auto a = static_cast<size_t>(piece[i]), b = static_cast<size_t>(piece[(i + 1) % piece.size()]);
-      if (b == (a + 1) % n) {
-        if (boundary[a]) return false;
-        boundary[a] = 1;
-      } else {
-        cuts.emplace_back(a, b);
-      }
-    }
+    for (size_t i = 0; i < piece.size(); ++i)
+      edges.emplace_back(static_cast<size_t>(piece[i]), static_cast<size_t>(piece[(i + 1) % piece.size()]));
   }
-  for (const char used : boundary)
-    if (!used) return false;
-  for (const auto& cut : cuts) {
-    size_t same = 0, opposite = 0;
-    for (const auto& other : cuts) {
-      same += other == cut;
-      opposite += other.first == cut.second && other.second == cut.first;
-    }
-    if (same != 1 || opposite != 1) return false;
-  }
-  return true;
+  std::sort(edges.begin(), edges.end());
+  if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) return false;
+  const auto is_side = [n](const Edge& edge) { return edge.second == (edge.first + 1) % n; };
+  const auto is_matched = [&](const Edge& edge) {
+    const Edge back(edge.second, edge.first);
+    return is_side(edge) || (!is_side(back) && std::binary_search(edges.begin(), edges.end(), back));
+  };
+  return static_cast<size_t>(std::count_if(edges.begin(), edges.end(), is_side)) == n &&
+         std::all_of(edges.begin(), edges.end(), is_matched);
 }
 
 }  // namespace

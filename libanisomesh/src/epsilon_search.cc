@@ -1,0 +1,134 @@
+#include "epsilon_search.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "anisomesh/errors.hh"
+
+namespace anisomesh::detail {
+
+namespace {
+
+/// Faces or vertices for each crossing that the density asks for: the median over the nine discs of the
+/// benchmarks at 1,000 and 4,000 faces. Above 1 since spacings may change only slowly from place to place.
+constexpr double kFirstRatio = 1.8;
+constexpr double kMet = 0.1;  ///< a count within this fraction of the target meets it
+/// Where polygons cannot be made, those of an epsilon so much smaller often can, a few times.
+constexpr double kNextAfterRefusal = 0.85;
+constexpr size_t kMostRefusals = 4;
+constexpr double kSame = 1e-3;  ///< logarithm: an epsilon so near to another one gives the same
+/// A count that falls by a smaller power of epsilon is not the density's any more: features, the border or
+/// what the tolerances ask for need as many, and a larger epsilon only spoils what is there.
+constexpr double kStalled = 0.2;
+constexpr double kLowest = 1e-8, kHighest = 0.5;  ///< epsilon, fraction of the diagonal
+
+/// The epsilon for which the density asks for so many crossings.
+double epsilon_of(double wanted, const std::function<double(double)>& crossings) {
+  double low = std::log(kLowest), high = std::log(kHighest);
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (crossings(std::exp(middle)) > wanted ? low : high) = middle;
+  }
+  return std::exp(0.5 * (low + high));
+}
+
+struct Trial {
+  double log_epsilon = 0;
+  double log_ratio = 0;  ///< log of count over target
+  double off() const { return std::abs(std::exp(log_ratio) - 1); }
+};
+
+/// Where to look next: the model scaled to the nearest attempt, or the secant through the two that enclose
+/// the target, kept inside what is known.
+double next_epsilon(const std::vector<Trial>& attempts, const std::function<double(double)>& crossings) {
+  const auto nearest = *std::min_element(attempts.begin(), attempts.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.log_ratio) < std::abs(b.log_ratio);
+  });
+  const Trial *above = nullptr, *below = nullptr;  // the tightest attempts with too many and too few
+  for (const Trial& a : attempts) {
+    if (a.log_ratio > 0 && (!above || a.log_epsilon > above->log_epsilon)) above = &a;
+    if (a.log_ratio <= 0 && (!below || a.log_epsilon < below->log_epsilon)) below = &a;
+  }
+  if (above && below && above->log_epsilon < below->log_epsilon) {
+    const double t = std::clamp(above->log_ratio / (above->log_ratio - below->log_ratio), 0.1, 0.9);
+    return std::exp(above->log_epsilon + t * (below->log_epsilon - above->log_epsilon));
+  }
+  const double count_there = crossings(std::exp(nearest.log_epsilon));
+  // Past the first attempts the model has shown to be wrong in the slope too: step further each time.
+  const double push = 1 + 0.25 * static_cast<double>(attempts.size() - 1);
+  return epsilon_of(count_there * std::exp(-push * nearest.log_ratio), crossings);
+}
+
+/// Whether the last step to a larger epsilon brought next to nothing, though there are still too many.
+bool is_stalled(const std::vector<Trial>& attempts) {
+  if (attempts.size() < 2) return false;
+  const Trial &last = attempts.back(), &before = attempts[attempts.size() - 2];
+  const double step = last.log_epsilon - before.log_epsilon;
+  return last.log_ratio > 0 && step > 0 && before.log_ratio - last.log_ratio < kStalled * step;
+}
+
+/// Between an epsilon that was refused and the nearest one with a result; without any, 0.85 of it.
+double after_refusal(double refused, const std::vector<Trial>& trials) {
+  if (trials.empty()) return kNextAfterRefusal * refused;
+  const double from = std::log(refused);
+  const auto nearest = std::min_element(trials.begin(), trials.end(), [from](const auto& a, const auto& b) {
+    return std::abs(a.log_epsilon - from) < std::abs(b.log_epsilon - from);
+  });
+  return std::exp(0.5 * (from + nearest->log_epsilon));
+}
+
+bool is_same(double log_epsilon, double other) { return std::abs(log_epsilon - other) < kSame; }
+
+bool is_refused(double epsilon, const std::vector<double>& refused) {
+  return std::any_of(refused.begin(), refused.end(),
+                     [epsilon](double r) { return is_same(std::log(epsilon), std::log(r)); });
+}
+
+bool is_tried(double epsilon, const std::vector<Trial>& trials) {
+  return std::any_of(trials.begin(), trials.end(),
+                     [epsilon](const Trial& t) { return is_same(std::log(epsilon), t.log_epsilon); });
+}
+
+}  // namespace
+
+FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const EpsilonSearch& search) {
+  FoundEpsilon found;
+  std::vector<Trial> trials;
+  std::vector<double> refused;
+  double best_off = std::numeric_limits<double>::infinity();
+  double epsilon = epsilon_of(wanted / kFirstRatio, search.crossings);
+  for (;;) {
+    const bool is_last = ++found.attempts >= options.max_attempts;
+    size_t count = 0;
+    try {
+      count = search.make(epsilon);
+    } catch (const CannotProcess&) {
+      refused.push_back(epsilon);
+      if (refused.size() > kMostRefusals || is_last) {
+        if (std::isfinite(best_off)) break;
+        throw;
+      }
+      epsilon = after_refusal(epsilon, trials);
+      continue;
+    }
+    found.tried.push_back({epsilon, count});
+    trials.push_back({std::log(epsilon), std::log(std::max(static_cast<double>(count), 0.5) / wanted)});
+    const double off = trials.back().off();
+    const bool stalled = is_stalled(trials);
+    const bool met = off <= options.tolerance || (found.attempts >= 3 && off <= kMet);
+    if (met || (off < best_off && !stalled)) {
+      best_off = off;
+      search.keep();
+    }
+    epsilon = next_epsilon(trials, search.crossings);
+    while (is_refused(epsilon, refused) && !is_tried(epsilon, trials))
+      epsilon = after_refusal(epsilon, trials);
+    const bool stuck = is_tried(epsilon, trials);
+    if (met || is_last || stuck || stalled || (found.attempts >= 3 && best_off <= kMet)) break;
+  }
+  found.met = best_off <= kMet;
+  return found;
+}
+
+}  // namespace anisomesh::detail

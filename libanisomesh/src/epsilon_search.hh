@@ -1,0 +1,32 @@
+// The search in count over epsilon, whatever makes the results.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "anisomesh/remesh.hh"
+
+namespace anisomesh::detail {
+
+struct EpsilonSearch {
+  /// How many crossings a density asks for, epsilon as a fraction of the diagonal: falls as epsilon grows.
+  std::function<double(double epsilon)> crossings;
+  /// Makes a result. \return its faces or vertices \throw CannotProcess where there can be none with this
+  /// epsilon
+  std::function<size_t(double epsilon)> make;
+  /// The result that was made last is the best so far.
+  std::function<void()> keep;
+};
+
+struct FoundEpsilon {
+  std::vector<Attempt> tried;  ///< those with a result
+  int attempts = 0;            ///< those without a result too
+  bool met = false;            ///< the best result is within 10 % of the target
+};
+
+/// Seeks the epsilon whose result has `wanted` faces or vertices: a guess from the density, then a secant.
+/// One that is refused is followed by a smaller one, a few times. \throw CannotProcess of the last attempt if
+/// none had a result; what `make` throws else
+FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const EpsilonSearch& search);
+
+}  // namespace anisomesh::detail

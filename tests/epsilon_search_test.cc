@@ -1,0 +1,144 @@
+// The search for a count against results that are made up: a law of the count, and refusals where a test
+// says.
+#include "epsilon_search.hh"
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "anisomesh/errors.hh"
+#include "catch.hh"
+
+using namespace anisomesh;
+
+namespace {
+
+/// Counts by a law, refuses where it is told to, and remembers what it was asked for.
+struct MadeUp {
+  std::function<double(double)> count = [](double epsilon) { return 1.8 / epsilon; };
+  std::function<bool(double epsilon, size_t attempt)> refused = [](double, size_t) { return false; };
+  std::vector<double> asked;
+  double last = 0, kept = 0;  ///< epsilon
+  int keeps = 0;
+
+  detail::FoundEpsilon search(double wanted, int max_attempts = 8) {
+    TargetOptions options;
+    options.max_attempts = max_attempts;
+    detail::EpsilonSearch steps;
+    steps.crossings = [](double epsilon) { return 1 / epsilon; };
+    steps.make = [this](double epsilon) {
+      asked.push_back(epsilon);
+      if (refused(epsilon, asked.size() - 1)) throw CannotProcess("made up");
+      last = epsilon;
+      return static_cast<size_t>(std::lround(count(epsilon)));
+    };
+    steps.keep = [this] {
+      kept = last;
+      ++keeps;
+    };
+    return detail::search_epsilon(wanted, options, steps);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("where the count is what the density promises, the first epsilon meets it", "[epsilon_search]") {
+  MadeUp made;
+  const auto found = made.search(1000);
+  CHECK(found.met);
+  CHECK(found.attempts == 1);
+  CHECK(made.kept == Approx(0.0018));
+}
+
+TEST_CASE("a count that goes by another law is met all the same", "[epsilon_search]") {
+  for (const double power : {0.6, 0.8, 1.3, 2.0}) {
+    MadeUp made;
+    made.count = [power](double epsilon) { return 0.4 * std::pow(epsilon, -power); };
+    const auto found = made.search(1000);
+    INFO("power " << power << ", " << found.attempts << " attempts");
+    CHECK(found.met);
+    CHECK(made.count(made.kept) == Approx(1000).epsilon(0.1));
+  }
+}
+
+TEST_CASE("a refused epsilon is followed by 0.85 of it, and the search goes on from there",
+          "[epsilon_search]") {
+  for (const size_t refusals : {1, 2, 3, 4}) {
+    MadeUp made;
+    made.refused = [refusals](double, size_t attempt) { return attempt < refusals; };
+    const auto found = made.search(1000);
+    INFO(refusals << " refusals");
+    REQUIRE(made.asked.size() > refusals);
+    for (size_t i = 1; i <= refusals; ++i) CHECK(made.asked[i] == Approx(0.85 * made.asked[i - 1]));
+    CHECK(found.met);  // the refusals are over: the first guess has a result now
+    CHECK(found.attempts == static_cast<int>(made.asked.size()));
+    CHECK(found.tried.size() + refusals == made.asked.size());
+    CHECK(made.count(made.kept) == Approx(1000).epsilon(0.1));
+  }
+}
+
+TEST_CASE("after the fifth refusal without a result the search gives up with the refusal",
+          "[epsilon_search]") {
+  MadeUp made;
+  made.refused = [](double, size_t) { return true; };
+  CHECK_THROWS_AS(made.search(1000), CannotProcess);
+  REQUIRE(made.asked.size() == 5);
+  CHECK(made.asked[4] == Approx(std::pow(0.85, 4) * made.asked[0]));
+  CHECK(made.keeps == 0);
+  MadeUp short_of_time = made;
+  short_of_time.asked.clear();
+  CHECK_THROWS_AS(short_of_time.search(1000, 2), CannotProcess);
+  CHECK(short_of_time.asked.size() == 2);
+}
+
+TEST_CASE("refusals after a result leave that result", "[epsilon_search]") {
+  MadeUp made;
+  made.count = [](double epsilon) { return 3 / epsilon; };  // too many at first: a larger epsilon is tried
+  made.refused = [](double, size_t attempt) { return attempt > 0; };
+  const auto found = made.search(1000);
+  CHECK(made.keeps == 1);
+  CHECK(made.kept == made.asked[0]);
+  CHECK(found.tried.size() == 1);
+  CHECK(found.attempts == 6);
+  CHECK_FALSE(found.met);
+}
+
+TEST_CASE("where nothing coarser than a limit has a result, the search comes near to the limit",
+          "[epsilon_search]") {
+  // 1,000 would be at 0.0018, and nothing above 0.0014, which has 1,286, has a result.
+  MadeUp made;
+  made.refused = [](double epsilon, size_t) { return epsilon > 0.0014; };
+  const auto found = made.search(1000);
+  CHECK_FALSE(found.met);
+  CHECK(made.kept <= 0.0014);
+  CHECK(made.kept > 0.94 * 0.0014);
+  for (const Attempt& attempt : found.tried) CHECK(attempt.epsilon_fraction <= made.kept);
+  for (size_t i = 0; i < made.asked.size(); ++i)  // each of them costs a whole remesh: none twice
+    for (size_t j = 0; j < i; ++j) CHECK(std::abs(made.asked[i] / made.asked[j] - 1) > 1e-3);
+}
+
+TEST_CASE("refusals in a band are passed over", "[epsilon_search]") {
+  MadeUp made;
+  made.count = [](double epsilon) { return 2.7 / epsilon; };  // 1,000 is at 0.0027, the first guess at 0.0018
+  made.refused = [](double epsilon, size_t) { return epsilon > 0.00265 && epsilon < 0.0028; };
+  const auto found = made.search(1000);
+  CHECK(found.met);
+  CHECK(made.count(made.kept) == Approx(1000).epsilon(0.1));
+}
+
+TEST_CASE("a count that no epsilon brings down ends the search with the finer result", "[epsilon_search]") {
+  MadeUp made;
+  made.count = [](double epsilon) { return 3000 + 1e-4 / epsilon; };
+  const auto found = made.search(1000);
+  CHECK(found.attempts == 2);
+  CHECK(made.asked[1] > made.asked[0]);
+  CHECK(made.kept == made.asked[0]);
+  CHECK_FALSE(found.met);
+}
+
+TEST_CASE("the search ends with what else goes wrong at once", "[epsilon_search]") {
+  MadeUp made;
+  made.refused = [](double, size_t) -> bool { throw Cancelled(); };
+  CHECK_THROWS_AS(made.search(1000), Cancelled);
+  CHECK(made.asked.size() == 1);
+}
