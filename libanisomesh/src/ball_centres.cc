@@ -1,6 +1,7 @@
 #include "ball_centres.hh"
 
 #include "ball_flood.hh"
+#include "intrinsic_order.hh"
 
 namespace anisomesh::detail {
 
@@ -8,7 +9,7 @@ std::vector<int> choose_centres(const SurfaceArrays& surface, const std::vector<
   std::vector<int> centres;
   std::vector<char> covered(reach.size(), 0);
   BallFlood flood(surface);
-  for (int v = 0; v < surface.n_vertices(); ++v) {
+  for (const int v : intrinsic_vertex_order(surface)) {
     const auto i = static_cast<size_t>(v);
     if (surface.at_wall[i] || surface.star_size(v) == 0) {
       centres.push_back(v);

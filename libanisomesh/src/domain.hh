@@ -105,9 +105,15 @@ class Domain {
   virtual void mark_within(const SurfacePoint& at, double radius, std::vector<char>& marks) const = 0;
   virtual size_t n_faces() const = 0;
   virtual double area(OpenMesh::FaceHandle face) const = 0;
+  /// Length of the side opposite a corner.
+  virtual double side(OpenMesh::FaceHandle face, int corner) const = 0;
   /// \param reach how far a line or sample at a place needs to be seen, at least
   virtual std::unique_ptr<LineIndex> make_index(
       const std::function<double(const SurfacePoint&)>& reach) const = 0;
 };
+
+/// Twice the mean curvature: tells places apart that are the same to the spacing, whatever the frame and the
+/// numbering.
+inline double landmark(const Vec3d& tensor) { return tensor[0] + tensor[2]; }
 
 }  // namespace anisomesh::detail

@@ -127,6 +127,9 @@ std::vector<UmbilicPoint> read_umbilics(const SurfaceRef& surface,
     umbilics.push_back(
         {{f, b}, mesh.property(umbilic, f), larger_curvature(b[0] * t[0] + b[1] * t[1] + b[2] * t[2])});
   }
+  // The most curved first: in an order that does not depend on how faces are numbered.
+  std::stable_sort(umbilics.begin(), umbilics.end(),
+                   [](const UmbilicPoint& a, const UmbilicPoint& b) { return a.curvature > b.curvature; });
   return umbilics;
 }
 

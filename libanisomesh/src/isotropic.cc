@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "anisomesh/lines.hh"
+#include "intrinsic_order.hh"
 #include "line_placement.hh"
 #include "make_domain.hh"
 
@@ -25,7 +26,9 @@ struct Candidate {
   size_t order = 0;
   SurfacePoint point;
   bool operator<(const Candidate& o) const {
-    return misfit != o.misfit ? misfit > o.misfit : order > o.order;
+    // By steps that are far above rounding.
+    const double rank = std::round(misfit / detail::kTie), other_rank = std::round(o.misfit / detail::kTie);
+    return rank != other_rank ? rank > other_rank : order > o.order;
   }
 };
 
@@ -148,8 +151,8 @@ std::vector<Candidate> SamplePlacement::random_candidates() {
   constexpr double kCandidates = 30;  // for each sample wanted
   std::vector<Candidate> candidates;
   double share = 0;
-  for (size_t f = 0; f < domain_.n_faces(); ++f) {
-    const OpenMesh::FaceHandle face(static_cast<int>(f));
+  for (const int f : sampler_.order()) {
+    const OpenMesh::FaceHandle face(f);
     const SurfacePoint centre{face, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
     if (!domain_.isotropic(centre)) continue;
     const double spacing = domain_.isotropic_spacing(centre);

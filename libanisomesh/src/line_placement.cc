@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <queue>
+
+#include "intrinsic_order.hh"
 
 namespace anisomesh::detail {
 
@@ -21,12 +22,13 @@ LineKind other(LineKind kind) { return kind == LineKind::min ? LineKind::max : L
 // A place beside a line, to be looked at again when its turn comes.
 struct Candidate {
   double misfit = 0;  // |actual - wanted distance| / wanted
+  double rank = 0;    // the misfit in steps that are far above rounding
   size_t order = 0;
   SurfacePoint origin;
   Vec2d across{0, 0};      // unit, away from the line
   bool continues = false;  // the origin is on a feature, where a line ended on the other side
   bool operator<(const Candidate& o) const {  // worse ones sink in the queue
-    return misfit != o.misfit ? misfit > o.misfit : order > o.order;
+    return rank != o.rank ? rank > o.rank : order > o.order;
   }
 };
 
@@ -54,6 +56,7 @@ class Placement {
 
  private:
   bool trace_umbilics();
+  std::vector<SurfacePoint> densest_places() const;
   bool trace_extreme();
   bool trace_queue();
   bool check_coverage();
@@ -64,6 +67,7 @@ class Placement {
   Seed seed_at(const Candidate& candidate) const;
   Seed continued(const SurfacePoint& beyond) const;
   void push(Candidate candidate);
+  void queue(Candidate candidate, const Seed& seed);
   Vec2d line_direction(const SurfacePoint& at) const;
 
   const Domain& domain_;
@@ -138,12 +142,17 @@ Seed Placement::continued(const SurfacePoint& beyond) const {
   return seed;
 }
 
+void Placement::queue(Candidate candidate, const Seed& seed) {
+  candidate.misfit = seed.misfit;
+  candidate.rank = std::round(seed.misfit / kTie);
+  queue_.push(candidate);
+}
+
 void Placement::push(Candidate candidate) {
   const Seed seed = seed_at(candidate);
   if (!seed.fits) return;
-  candidate.misfit = seed.misfit;
   candidate.order = candidates_++;
-  queue_.push(candidate);
+  queue(candidate, seed);
 }
 
 bool Placement::keep(TracedLine line) {
@@ -155,13 +164,13 @@ bool Placement::keep(TracedLine line) {
     next_seed = p.arc + kSeedEvery;
     const Vec2d across(-p.direction[1], p.direction[0]);
     for (const Vec2d& side : {across, -across}) {
-      push({0, 0, p.point, side, false});
+      push({0, 0, 0, p.point, side, false});
     }
   }
   const auto continue_at = [this](LineEnd reason, const TracePoint& end) {
     if (reason != LineEnd::feature) return;
     const SurfacePoint beyond = domain_.beyond_feature(end.point);
-    if (beyond.face.is_valid()) push({0, 0, beyond, {0, 0}, true});
+    if (beyond.face.is_valid()) push({0, 0, 0, beyond, {0, 0}, true});
   };
   continue_at(line.begin_reason, line.points.front());
   continue_at(line.end_reason, line.points.back());
@@ -179,35 +188,67 @@ bool Placement::looked_at_many() { return ++looked_at_ % kAskEvery != 0 || is_go
 // Lines from umbilics, the most curved first.
 bool Placement::trace_umbilics() {
   const auto& umbilics = domain_.umbilics();
-  std::vector<int> order(umbilics.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return umbilics[static_cast<size_t>(a)].curvature > umbilics[static_cast<size_t>(b)].curvature;
-  });
-  for (const int u : order) {
-    const UmbilicPoint& umbilic = umbilics[static_cast<size_t>(u)];
+  for (size_t u = 0; u < umbilics.size(); ++u) {
+    const UmbilicPoint& umbilic = umbilics[u];
     const double spacing = domain_.spacing(kind_, umbilic.point);
     if (clearance(umbilic.point, spacing) < options_.seed_fraction * spacing) continue;
+    std::vector<std::pair<double, Vec2d>> directions;
     for (const Vec2d& direction : domain_.separatrices(umbilic, kind_))
-      if (!keep(tracer_.trace_from_umbilic(u, direction, next_id_))) return false;
+      directions.emplace_back(landmark(domain_.tensor_ahead(umbilic.point, 0.5 * spacing * direction)),
+                              direction);
+    std::stable_sort(directions.begin(), directions.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (const auto& direction : directions)
+      if (!keep(tracer_.trace_from_umbilic(static_cast<int>(u), direction.second, next_id_))) return false;
   }
   return true;
 }
 
-// The line through the face that wants the densest lines.
-bool Placement::trace_extreme() {
-  SurfacePoint best;
+// Faces away from fences that want the densest lines, by the curvature; some of them where very many do.
+std::vector<SurfacePoint> Placement::densest_places() const {
+  constexpr size_t kEnough = 200;
+  constexpr double kAsDense = 1.1;
+  std::vector<SurfacePoint> places;
+  std::vector<std::array<double, 2>> measures;
   double least = std::numeric_limits<double>::infinity();
-  for (size_t f = 0; f < domain_.n_faces(); ++f) {
-    const SurfacePoint centre{OpenMesh::FaceHandle(static_cast<int>(f)), {1.0 / 3, 1.0 / 3, 1.0 / 3}};
-    const double spacing = domain_.spacing(kind_, centre);
-    if (spacing >= least || domain_.isotropic(centre)) continue;
-    const auto near = index_->nearest(centre, 0.5 * spacing);
-    if (!std::isinf(near.fence.distance)) continue;  // no good start: half of it is cut off
-    least = spacing;
-    best = centre;
+  for (const bool listing : {false, true})
+    for (size_t f = 0; f < domain_.n_faces(); ++f) {
+      const SurfacePoint centre{OpenMesh::FaceHandle(static_cast<int>(f)), {1.0 / 3, 1.0 / 3, 1.0 / 3}};
+      const double spacing = domain_.spacing(kind_, centre);
+      if (spacing >= kAsDense * least || domain_.isotropic(centre)) continue;
+      if (!listing && spacing >= least) continue;
+      // No good start: half of it is cut off.
+      if (!listing && !std::isinf(index_->nearest(centre, 0.5 * spacing).fence.distance)) continue;
+      if (!listing) {
+        least = spacing;
+        continue;
+      }
+      places.push_back(centre);
+      measures.push_back({landmark(domain_.tensor(centre)), domain_.area(centre.face)});
+    }
+  std::vector<SurfacePoint> some;
+  const auto order = intrinsic_order(measures);
+  for (size_t i = 0; i < order.size(); i += 1 + order.size() / kEnough)
+    some.push_back(places[static_cast<size_t>(order[i])]);
+  return some;
+}
+
+// The line through the face that wants the densest lines; of those that want as dense ones, through that
+// which is as near to a fence as seeds may be.
+bool Placement::trace_extreme() {
+  constexpr double kStep = 0.01;  // spacings
+  const SurfacePoint* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  const auto places = densest_places();
+  for (const SurfacePoint& place : places) {
+    const double spacing = domain_.spacing(kind_, place);
+    const double away = std::min(clearance(place, 1.5 * spacing) / spacing, 1.5);
+    const double off = std::round(std::abs(away - options_.seed_fraction) / kStep);
+    if (off >= least || !std::isinf(index_->nearest(place, 0.5 * spacing).fence.distance)) continue;
+    least = off;
+    best = &place;
   }
-  return std::isinf(least) || keep(tracer_.trace(best, next_id_));
+  return !best || keep(tracer_.trace(*best, next_id_));
 }
 
 bool Placement::trace_queue() {
@@ -218,8 +259,7 @@ bool Placement::trace_queue() {
     const Seed seed = seed_at(candidate);
     if (!seed.fits) continue;
     if (seed.misfit > candidate.misfit + 0.02) {
-      candidate.misfit = seed.misfit;
-      queue_.push(candidate);
+      queue(candidate, seed);
       continue;
     }
     if (!keep(candidate.continues ? tracer_.trace_from_feature(seed.point, seed.direction, next_id_)
@@ -266,11 +306,17 @@ PlacedLines place_lines(const Domain& domain, LineKind kind, const TraceOptions&
   return Placement(domain, kind, options, going_on).run();
 }
 
-AreaSampler::AreaSampler(const Domain& domain, unsigned seed) : state_(seed) {
+AreaSampler::AreaSampler(const Domain& domain, unsigned seed) : domain_(domain), state_(seed) {
+  std::vector<std::array<double, 2>> measures;
+  measures.reserve(domain.n_faces());
+  for (size_t f = 0; f < domain.n_faces(); ++f) {
+    const OpenMesh::FaceHandle face(static_cast<int>(f));
+    measures.push_back({landmark(domain.tensor({face, {1.0 / 3, 1.0 / 3, 1.0 / 3}})), domain.area(face)});
+  }
+  order_ = intrinsic_order(measures);
   double sum = 0;
-  cumulative_.reserve(domain.n_faces());
-  for (size_t f = 0; f < domain.n_faces(); ++f)
-    cumulative_.push_back(sum += domain.area(OpenMesh::FaceHandle(static_cast<int>(f))));
+  cumulative_.reserve(order_.size());
+  for (const int f : order_) cumulative_.push_back(sum += domain.area(OpenMesh::FaceHandle(f)));
 }
 
 // SplitMix64: the same numbers with every standard library. [Steele, Lea, Flood 2014]
@@ -286,12 +332,20 @@ SurfacePoint AreaSampler::next() {
   const auto it = std::upper_bound(cumulative_.begin(), cumulative_.end(), uniform() * cumulative_.back());
   const auto face =
       std::min<std::ptrdiff_t>(it - cumulative_.begin(), static_cast<std::ptrdiff_t>(cumulative_.size()) - 1);
-  return in_face(OpenMesh::FaceHandle(static_cast<int>(face)));
+  return in_face(OpenMesh::FaceHandle(order_[static_cast<size_t>(face)]));
 }
 
+// The first corner is that opposite the longest side.
 SurfacePoint AreaSampler::in_face(OpenMesh::FaceHandle face) {
   const double r = std::sqrt(uniform()), s = uniform();
-  return {face, {1 - r, r * (1 - s), r * s}};
+  int first = 0;
+  for (int i = 1; i < 3; ++i)
+    if (domain_.side(face, i) > (1 + kTie) * domain_.side(face, first)) first = i;
+  SurfacePoint point{face, {0, 0, 0}};
+  point.barycentric[first] = 1 - r;
+  point.barycentric[(first + 1) % 3] = r * (1 - s);
+  point.barycentric[(first + 2) % 3] = r * s;
+  return point;
 }
 
 }  // namespace anisomesh::detail

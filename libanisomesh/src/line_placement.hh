@@ -17,17 +17,21 @@ struct PlacedLines {
 PlacedLines place_lines(const Domain& domain, LineKind kind, const TraceOptions& options,
                         const std::function<bool(double)>& going_on);
 
-/// Random points of a domain, uniform by area.
+/// Random points of a domain, uniform by area; the same ones however its faces are numbered.
 class AreaSampler {
  public:
   AreaSampler(const Domain& domain, unsigned seed);
   SurfacePoint next();
   SurfacePoint in_face(OpenMesh::FaceHandle face);
+  /// All faces, in the order that they are numbered by here.
+  const std::vector<int>& order() const { return order_; }
   double total_area() const { return cumulative_.back(); }
 
  private:
   double uniform();  // in [0, 1)
-  std::vector<double> cumulative_;
+  const Domain& domain_;
+  std::vector<int> order_;
+  std::vector<double> cumulative_;  // of the faces in that order
   unsigned long long state_;
 };
 

@@ -217,6 +217,10 @@ TracedLine LineTracer::trace(const SurfacePoint& seed, int id) {
   start.point = seed;
   const Vec3d tensor = domain_.tensor(seed);
   start.direction = kind_ == LineKind::max ? max_direction(tensor) : min_direction(tensor);
+  // An eigenvector has no sign: lines run to where the mean curvature is larger, whatever the frame.
+  const Vec2d ahead = 0.5 * domain_.spacing(kind_, seed) * start.direction;
+  if (landmark(domain_.tensor_ahead(seed, ahead)) < landmark(domain_.tensor_ahead(seed, -ahead)))
+    start.direction = -start.direction;
   forward.points.push_back(start);
   run(forward, id, -1, 0);
   if (forward.reason != LineEnd::loop) {

@@ -155,6 +155,11 @@ double PlaneDomain::area(OpenMesh::FaceHandle handle) const {
          (mean_scale * mean_scale);
 }
 
+double PlaneDomain::side(OpenMesh::FaceHandle handle, int corner) const {
+  const Node &a = node(face(handle), (corner + 1) % 3), &b = node(face(handle), (corner + 2) % 3);
+  return (b.uv - a.uv).norm() / (0.5 * (a.scale + b.scale));
+}
+
 Vec3d PlaneDomain::barycentric(const Face& f, const Vec2d& point) const {
   const Vec2d a = node(f, 0).uv - point, b = node(f, 1).uv - point, c = node(f, 2).uv - point;
   const Vec3d areas(cross2(b, c), cross2(c, a), cross2(a, b));

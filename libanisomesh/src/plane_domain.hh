@@ -35,6 +35,7 @@ class PlaneDomain final : public FaceDomain {
   std::vector<Vec2d> separatrices(const UmbilicPoint& umbilic, LineKind kind) const override;
   void mark_within(const SurfacePoint& at, double radius, std::vector<char>& marks) const override;
   double area(OpenMesh::FaceHandle face) const override;
+  double side(OpenMesh::FaceHandle face, int corner) const override;
   std::unique_ptr<LineIndex> make_index(
       const std::function<double(const SurfacePoint&)>& reach) const override;
 

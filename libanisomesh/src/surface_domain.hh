@@ -44,6 +44,10 @@ class SurfaceDomain final : public FaceDomain {
   std::vector<Vec2d> separatrices(const UmbilicPoint& umbilic, LineKind kind) const override;
   void mark_within(const SurfacePoint& at, double radius, std::vector<char>& marks) const override;
   double area(OpenMesh::FaceHandle face) const override { return unfolded_.area(face.idx()); }
+  double side(OpenMesh::FaceHandle face, int corner) const override {
+    return (unfolded_.corner(face.idx(), (corner + 2) % 3) - unfolded_.corner(face.idx(), (corner + 1) % 3))
+        .norm();
+  }
   std::unique_ptr<LineIndex> make_index(
       const std::function<double(const SurfacePoint&)>& reach) const override;
 

@@ -50,7 +50,8 @@ class SurfaceFlood {
       std::pop_heap(open_.begin(), open_.end());
       const Open next = open_.back();
       open_.pop_back();
-      if (!(next.key < radius)) break;
+      if (!(next.key < (1 + kAside) * radius)) break;
+      if (!(next.at_least < radius)) continue;
       const Visit& from = visits_[static_cast<size_t>(next.visit)];
       const int face = faces_.across(from.face, next.edge);
       if (seen_[static_cast<size_t>(face)] == run_) continue;
@@ -65,12 +66,22 @@ class SurfaceFlood {
 
  private:
   struct Open {
-    double key = 0, distance = 0;
+    double key = 0, at_least = 0, distance = 0;
     int visit = 0, edge = 0;
     bool operator<(const Open& o) const {  // a heap has the largest on top
       return key != o.key ? key > o.key : visit > o.visit;
     }
   };
+
+  /// Edges that meet in the vertex nearest to the start are equally far. Which of them is crossed first
+  /// decides how what lies behind is unfolded, and must not be left to rounding: that whose middle is nearer.
+  static constexpr double kAside = 1e-3;
+  double aside(const Visit& visit, int edge, double distance) const {
+    const Vec2d middle =
+        0.5 * (faces_.corner(visit.face, (edge + 1) % 3) + faces_.corner(visit.face, (edge + 2) % 3));
+    const double away = (middle - visit.place).norm();
+    return away > distance ? 1 - distance / away : 0;  // in [0, 1]
+  }
 
   template <class OnVisit, class Beyond>
   void take(const Visit& visit, double& radius, OnVisit&& on_visit, Beyond&& beyond) {
@@ -86,7 +97,8 @@ class SurfaceFlood {
           std::max(visit.distance, std::sqrt(faces_.edge_distance2(visit.face, i, visit.place, unused)));
       const double at_least = distance + beyond(next);
       if (!(at_least < radius)) continue;
-      open_.push_back({straight_ ? at_least : distance, distance, static_cast<int>(visits_.size()) - 1, i});
+      open_.push_back({(straight_ ? at_least : distance) * (1 + kAside * aside(visit, i, distance)), at_least,
+                       distance, static_cast<int>(visits_.size()) - 1, i});
       std::push_heap(open_.begin(), open_.end());
     }
   }

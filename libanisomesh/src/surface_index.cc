@@ -19,6 +19,26 @@ Vec2d unit(const Vec2d& v) {
   return length > 0 ? Vec2d(v / length) : Vec2d(1, 0);
 }
 
+// The nearest of pieces. Of two that meet in the nearest point it is the one whose middle is nearer, so that
+// rounding has no say in the direction.
+class Nearest {
+ public:
+  explicit Nearest(double bound) : distance_(bound) {}
+  bool gives_way(double distance, const Vec2d& to_middle) const {
+    if (std::abs(distance - distance_) <= kSame * distance_) return to_middle.sqrnorm() < middle2_;
+    return distance < distance_;
+  }
+  void take(double distance, const Vec2d& to_middle) {
+    distance_ = distance;
+    middle2_ = to_middle.sqrnorm();
+  }
+  double distance() const { return distance_; }
+
+ private:
+  static constexpr double kSame = 1e-9;
+  double distance_, middle2_ = std::numeric_limits<double>::infinity();
+};
+
 void record(Neighbour& neighbour, const SurfaceFlood::Visit& visit, const Vec2d& place, const Vec2d& along,
             double distance) {
   neighbour.distance = distance;
@@ -55,7 +75,7 @@ bool SurfaceIndex::pending_near(const SurfacePoint& at, double bound, double fro
 template <class Beyond>
 double SurfaceIndex::nearest_line(const SurfacePoint& at, double bound, int own, double from, double to,
                                   Neighbour& best, const Beyond& beyond) {
-  double nearest = bound;
+  Nearest nearest{bound};
   flood_.search(
       at, bound,
       [&](const SurfaceFlood::Visit& visit) {
@@ -65,23 +85,23 @@ double SurfaceIndex::nearest_line(const SurfacePoint& at, double bound, int own,
           const double t = nearest_parameter(visit.place, piece.from, piece.to);
           const Vec2d place = piece.from + t * (piece.to - piece.from);
           const double distance = (place - visit.place).norm();
-          if (!(distance < nearest)) continue;
+          if (!nearest.gives_way(distance, 0.5 * (piece.from + piece.to) - visit.place)) continue;
           const double arc = (1 - t) * piece.arc_from + t * piece.arc_to;
           if (piece.line == own && own >= 0 && arc >= from && arc <= to) continue;
-          nearest = distance;
+          nearest.take(distance, 0.5 * (piece.from + piece.to) - visit.place);
           const Vec2d along = piece.to - piece.from;
           record(best, visit, place, piece.arc_to >= piece.arc_from ? along : -along, distance);
           best.line = piece.line;
           best.arc = arc;
         }
-        return nearest;
+        return nearest.distance();
       },
       beyond);
-  return nearest;
+  return nearest.distance();
 }
 
 void SurfaceIndex::nearest_fence(const SurfacePoint& at, double bound, Neighbour& best) {
-  double nearest = bound;
+  Nearest nearest{bound};
   flood_.search(
       at, bound,
       [&](const SurfaceFlood::Visit& visit) {
@@ -89,12 +109,12 @@ void SurfaceIndex::nearest_fence(const SurfacePoint& at, double bound, Neighbour
           if (faces_.across(visit.face, i) >= 0) continue;
           double t = 0;
           const double distance = std::sqrt(faces_.edge_distance2(visit.face, i, visit.place, t));
-          if (!(distance < nearest)) continue;
-          nearest = distance;
           const Vec2d a = faces_.corner(visit.face, (i + 1) % 3), b = faces_.corner(visit.face, (i + 2) % 3);
+          if (!nearest.gives_way(distance, 0.5 * (a + b) - visit.place)) continue;
+          nearest.take(distance, 0.5 * (a + b) - visit.place);
           record(best, visit, a + t * (b - a), b - a, distance);
         }
-        return nearest;
+        return nearest.distance();
       },
       *fences_, true);
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "intrinsic_order.hh"
 #include "numerics/tensor2d.hh"
 #include "surface_field.hh"
 
@@ -17,7 +18,7 @@ namespace {
 
 /// Samples of a group are this near to its first one, in radii of the support: near enough for the Gaussian
 /// to be flat over the group, wide enough that a support never holds more than about 50 groups.
-constexpr double group_radius = 0.25;
+constexpr double group_radius = 0.22;
 
 /// Samples that lie close together, standing for all of them: keeps the cost of a support bounded where the
 /// mesh is fine. Where edges are longer than a group's radius every sample is a group of its own.
@@ -50,17 +51,35 @@ NodeNeighbours group_neighbours(const FilterSamples& samples, const std::vector<
   return result;
 }
 
+/// Area, the largest first, and how far the neighbours are in radii of the support. Groups that start at the
+/// smallest areas smooth more: mannequin-devil then has three times as many isotropic samples, and 3 % fewer
+/// quads.
+std::vector<std::array<double, 2>> measures_of(const FilterSamples& samples) {
+  std::vector<std::array<double, 2>> measures;
+  measures.reserve(samples.place.size());
+  for (size_t s = 0; s < samples.place.size(); ++s) {
+    double away = 0;
+    for (int k = samples.neighbours.offset[s]; k < samples.neighbours.offset[s + 1]; ++k) {
+      const auto other = static_cast<size_t>(samples.neighbours.node[static_cast<size_t>(k)]);
+      away += (samples.place[other] - samples.place[s]).sqrnorm() / (samples.radius[s] * samples.radius[s]);
+    }
+    measures.push_back({-samples.area[s], away});
+  }
+  return measures;
+}
+
 Groups group_samples(const FilterSamples& samples) {
   const size_t n = samples.place.size();
   Groups groups;
   groups.group_of.assign(n, -1);
   std::vector<std::vector<int>> members;
-  for (size_t first = 0; first < n; ++first) {
+  for (const int started : intrinsic_order(measures_of(samples))) {
+    const auto first = static_cast<size_t>(started);
     if (groups.group_of[first] >= 0) continue;
     const int group = static_cast<int>(members.size());
     const double reach = group_radius * samples.radius[first];
     groups.group_of[first] = group;
-    members.push_back({static_cast<int>(first)});
+    members.push_back({started});
     for (size_t i = 0; i < members.back().size(); ++i) {
       const auto s = static_cast<size_t>(members.back()[i]);
       for (int k = samples.neighbours.offset[s]; k < samples.neighbours.offset[s + 1]; ++k) {

@@ -60,8 +60,8 @@ struct Proximity::Impl {
   std::vector<FaceHandle> stack;
 
   VertexHandle insert(const Vec2d& point, int line, double arc, double scale);
-  void consider_edge(FaceHandle face, int index, double distance2, double parameter, const Ignore& ignore,
-                     PlaneNeighbourhood& best) const;
+  void consider_edge(FaceHandle face, int index, const Vec2d& query, double distance2, double parameter,
+                     const Ignore& ignore, PlaneNeighbourhood& best) const;
   void consider_points(FaceHandle face, const Vec2d& point, PlaneNeighbourhood& best) const;
   void visit_face(FaceHandle face, const Vec2d& point, const Ignore& ignore, PlaneNeighbourhood& best);
 };
@@ -73,8 +73,8 @@ VertexHandle Proximity::Impl::insert(const Vec2d& point, int line, double arc, d
   return vertex;
 }
 
-void Proximity::Impl::consider_edge(FaceHandle face, int index, double distance2, double parameter,
-                                    const Ignore& ignore, PlaneNeighbourhood& best) const {
+void Proximity::Impl::consider_edge(FaceHandle face, int index, const Vec2d& query, double distance2,
+                                    double parameter, const Ignore& ignore, PlaneNeighbourhood& best) const {
   const VertexHandle a = face->vertex(Triangulation::ccw(index)), b = face->vertex(Triangulation::cw(index));
   const VertexInfo& from = a->info();
   const VertexInfo& to = b->info();
@@ -86,8 +86,12 @@ void Proximity::Impl::consider_edge(FaceHandle face, int index, double distance2
   const double arc = (1 - parameter) * arc_from + parameter * arc_to;
   if (!fence && line == ignore.line && line >= 0 && arc >= ignore.from && arc <= ignore.to) return;
   PlaneNeighbour& neighbour = fence ? best.fence : best.line;
-  if (distance2 >= neighbour.distance * neighbour.distance) return;
   const Vec2d pa = as_vector(a->point()), pb = as_vector(b->point());
+  const double middle2 = (0.5 * (pa + pb) - query).sqrnorm();
+  const double nearest2 = neighbour.distance * neighbour.distance;
+  const bool same = std::abs(distance2 - nearest2) <= kSameDistance * nearest2;
+  if (same ? middle2 >= neighbour.middle2 : distance2 >= nearest2) return;
+  neighbour.middle2 = middle2;
   neighbour.distance = std::sqrt(distance2);
   neighbour.point = (1 - parameter) * pa + parameter * pb;
   neighbour.direction = arc_to >= arc_from ? pb - pa : pa - pb;
@@ -124,9 +128,9 @@ void Proximity::Impl::visit_face(FaceHandle face, const Vec2d& point, const Igno
     const Vec2d b = as_vector(face->vertex(Triangulation::cw(i))->point());
     const double parameter = nearest_parameter(point, a, b);
     const double distance2 = (a + parameter * (b - a) - point).sqrnorm();
-    if (distance2 > best.line.distance * best.line.distance) continue;
+    if (distance2 > (1 + kSameDistance) * best.line.distance * best.line.distance) continue;
     if (constrained) {
-      consider_edge(face, i, distance2, parameter, ignore, best);
+      consider_edge(face, i, point, distance2, parameter, ignore, best);
       continue;
     }
     if (triangulation.is_infinite(next)) continue;

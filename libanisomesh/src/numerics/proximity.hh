@@ -18,7 +18,13 @@ struct PlaneNeighbour {
   int line = -1;
   double arc = 0;    ///< interpolated between the ends of the segment
   double scale = 1;  ///< interpolated between the ends of the segment
+  /// Squared distance to the middle of the segment: of segments that meet in the nearest point it is that
+  /// whose middle is nearer, so that rounding has no say in the direction.
+  double middle2 = std::numeric_limits<double>::infinity();
 };
+
+/// Distances that differ by so little, squared and over the larger, are the same but for rounding.
+constexpr double kSameDistance = 1e-9;
 
 struct PlaneNeighbourhood {
   PlaneNeighbour line;   ///< nearest line that is seen from the point

@@ -1,0 +1,145 @@
+// The lines and samples of a surface do not depend on where it lies, how large it is and how it is numbered.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "anisomesh/curvature.hh"
+#include "anisomesh/flatten.hh"
+#include "anisomesh/io.hh"
+#include "anisomesh/lines.hh"
+#include "anisomesh/shapes.hh"
+#include "anisomesh/smoothing.hh"
+#include "anisomesh/umbilics.hh"
+#include "catch.hh"
+#include "data.hh"
+
+using namespace anisomesh;
+
+namespace {
+
+struct Change {
+  const char* name;
+  double scale;
+  std::function<Vec3d(const Vec3d&)> apply;
+  bool renumbers;
+};
+
+std::vector<Change> changes(double size) {
+  const auto same = [](const Vec3d& p) { return p; };
+  const double far = 1e6 * size;
+  return {
+      {"scaled by 1e-6", 1e-6, [](const Vec3d& p) { return 1e-6 * p; }, false},
+      {"scaled by 1e6", 1e6, [](const Vec3d& p) { return 1e6 * p; }, false},
+      {"moved by 1e6 of its size", 1, [=](const Vec3d& p) { return p + Vec3d(far, -far, far); }, false},
+      {"turned", 1,
+       [](const Vec3d& p) { return Vec3d(0.6 * p[0] - 0.8 * p[1], 0.8 * p[0] + 0.6 * p[1], p[2]); }, false},
+      {"axes swapped", 1, [](const Vec3d& p) { return Vec3d(p[1], p[2], p[0]); }, false},
+      {"renumbered", 1, same, true}};
+}
+
+OpenMesh::TriMesh changed(const OpenMesh::TriMesh& mesh, const Change& change) {
+  std::mt19937 generator(7);
+  const auto below = [&](size_t n) { return generator() % n; };
+  const auto shuffle = [&](auto& list) {  // std::shuffle differs from one standard library to the next
+    for (size_t i = list.size(); i > 1; --i) std::swap(list[i - 1], list[below(i)]);
+  };
+  std::vector<int> order(mesh.n_vertices());
+  std::iota(order.begin(), order.end(), 0);
+  if (change.renumbers) shuffle(order);
+  OpenMesh::TriMesh result;
+  result.request_vertex_status();
+  result.request_edge_status();
+  result.request_face_status();
+  std::vector<OpenMesh::VertexHandle> vertex(order.size());
+  for (const int v : order)
+    vertex[static_cast<size_t>(v)] = result.add_vertex(change.apply(mesh.point(OpenMesh::VertexHandle(v))));
+  std::vector<std::vector<OpenMesh::VertexHandle>> faces;
+  for (const auto f : mesh.faces()) {
+    faces.emplace_back();
+    for (const auto v : f.vertices()) faces.back().push_back(vertex[static_cast<size_t>(v.idx())]);
+    if (change.renumbers)
+      std::rotate(faces.back().begin(), faces.back().begin() + static_cast<long>(below(3)),
+                  faces.back().end());
+  }
+  if (change.renumbers) shuffle(faces);
+  for (const auto& corners : faces) result.add_face(corners);
+  return result;
+}
+
+struct Traced {
+  TraceReport trace;
+  IsotropicReport isotropic;
+  LineNetwork network;
+};
+
+/// \param box the diagonal of the bounding box of the mesh as it was over that of this one, which a rotation
+/// changes: lengths are given as fractions of it
+Traced trace(OpenMesh::TriMesh& mesh, bool plane, double epsilon, double box) {
+  CurvatureOptions curvature;
+  curvature.radius_fraction *= box;
+  estimate_curvature(mesh, curvature);
+  if (plane) flatten(mesh);
+  SmoothingOptions smoothing;
+  smoothing.radius_fraction *= box;
+  smooth_tensors(mesh, smoothing);
+  find_umbilics(mesh);
+  TraceOptions options;
+  options.density.epsilon_fraction = epsilon * box;
+  options.density.max_spacing_fraction *= box;
+  Traced traced;
+  traced.trace = trace_lines(mesh, options);
+  traced.isotropic = place_isotropic_samples(mesh, options);
+  traced.network = read_lines(mesh);
+  return traced;
+}
+
+void check_invariance(OpenMesh::TriMesh mesh, bool plane, double epsilon) {
+  const OpenMesh::TriMesh original = mesh;
+  const Traced expected = trace(mesh, plane, epsilon, 1);
+  const SurfaceRef surface = mesh;
+  for (const Change& change : changes(surface.diagonal())) {
+    INFO(change.name);
+    auto copy = changed(original, change);
+    const SurfaceRef other = copy;
+    const Traced found = trace(copy, plane, epsilon, surface.diagonal() * change.scale / other.diagonal());
+    CHECK(found.trace.min_lines == expected.trace.min_lines);
+    CHECK(found.trace.max_lines == expected.trace.max_lines);
+    CHECK(found.trace.points == expected.trace.points);
+    CHECK(found.trace.coverage_seeds == expected.trace.coverage_seeds);
+    CHECK(std::equal(std::begin(found.trace.ends), std::end(found.trace.ends),
+                     std::begin(expected.trace.ends)));
+    CHECK(found.isotropic.from_umbilics == expected.isotropic.from_umbilics);
+    CHECK(found.isotropic.random == expected.isotropic.random);
+    // The same lines in the same order, point by point.
+    double farthest = 0;
+    const auto& lines = expected.network.lines;
+    REQUIRE(found.network.lines.size() == lines.size());
+    for (size_t i = 0; i < lines.size(); ++i) {
+      REQUIRE(found.network.lines[i].points.size() == lines[i].points.size());
+      for (size_t j = 0; j < lines[i].points.size(); ++j) {
+        const Vec3d here = change.apply(position(surface, lines[i].points[j]));
+        farthest = std::max(farthest, (position(other, found.network.lines[i].points[j]) - here).norm());
+      }
+    }
+    // 2 % of the spacing at most, where segments or ways are equally near but for rounding; mostly 1e-9.
+    CHECK(farthest <= 1e-4 * other.diagonal());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("lines follow a shape that is moved, turned, scaled or renumbered", "[invariance]") {
+  const bool plane = GENERATE(true, false);
+  check_invariance(make_shape("ellipsoid-cap", {3000, true}), plane, 0.001);
+}
+
+TEST_CASE("lines follow a scan that is moved, turned, scaled or renumbered", "[invariance]") {
+  const bool plane = GENERATE(true, false);
+  const auto path = demo_mesh(plane ? "lion-head.off" : "elephant.off");
+  if (!path) return skip(plane ? "lion-head.off" : "elephant.off");
+  check_invariance(read_surface(*path), plane, 0.001);
+}
