@@ -126,6 +126,19 @@ TEST_CASE("refusals in a band are passed over", "[epsilon_search]") {
   CHECK(made.count(made.kept) == Approx(1000).epsilon(0.1));
 }
 
+TEST_CASE("a count that goes up and down does not end the search between too many and too few",
+          "[epsilon_search]") {
+  MadeUp made;  // too few at the first guess of 0.0018, more and more below, and the target between
+  made.count = [](double epsilon) {
+    return epsilon > 0.00165 ? 600.0 : epsilon > 0.00155 ? 1000.0 : epsilon > 0.0013 ? 1900.0 : 1400.0;
+  };
+  const auto found = made.search(1000);
+  REQUIRE(found.tried.size() > 2);
+  CHECK(found.tried[1].count < found.tried[2].count);
+  CHECK(found.tried[1].epsilon_fraction < found.tried[2].epsilon_fraction);
+  CHECK(found.met);
+}
+
 TEST_CASE("a count that no epsilon brings down ends the search with the finer result", "[epsilon_search]") {
   MadeUp made;
   made.count = [](double epsilon) { return 3000 + 1e-4 / epsilon; };

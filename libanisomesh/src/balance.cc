@@ -82,9 +82,10 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     PatchMesh mesh(work);
     PatchChanges changes(mesh);
     const auto removals = moves.removals(mesh), additions = moves.additions(mesh);
-    for (const PatchMove& move : moves.repartitions(mesh))
-      if (changes.is_open(move)) changes.apply(move), ++report.parted;
+    const auto repartitions = moves.repartitions(mesh);
     exchange(changes, removals, additions, static_cast<long>(work.n_vertices()) - wanted, report);
+    for (const PatchMove& move : repartitions)
+      if (changes.is_open(move)) changes.apply(move), ++report.parted;
     work = mesh.mesh();
   }
   report_progress(progress, options.rounds / (options.rounds + 1.0));

@@ -60,9 +60,12 @@ double next_epsilon(const std::vector<Trial>& attempts, const std::function<doub
   return epsilon_of(count_there * std::exp(-push * nearest.log_ratio), crossings);
 }
 
-/// Whether the last step to a larger epsilon brought next to nothing, though there are still too many.
+/// Whether the last step to a larger epsilon brought next to nothing, though there are still too many. Where
+/// another one has given too few, it is the count that goes up and down, and the target lies between.
 bool is_stalled(const std::vector<Trial>& attempts) {
   if (attempts.size() < 2) return false;
+  if (std::any_of(attempts.begin(), attempts.end(), [](const Trial& t) { return t.log_ratio < 0; }))
+    return false;
   const Trial &last = attempts.back(), &before = attempts[attempts.size() - 2];
   const double step = last.log_epsilon - before.log_epsilon;
   return last.log_ratio > 0 && step > 0 && before.log_ratio - last.log_ratio < kStalled * step;
