@@ -96,6 +96,39 @@ test('every layer changes the picture, and switching it off brings the old one b
   await page.close();
 });
 
+test('a window of another size shows what it showed, and as large as it can', async () => {
+  const { page } = await open('all.html');
+  for (const layers of [['surface', 'border'], ['plane', 'border']]) {
+    await page.setViewportSize({ width: 1200, height: 700 });
+    await only(page, ...layers);
+    await page.locator('button', { hasText: 'Look at everything' }).click();
+    await settle(page);
+    const first = boxOf(await screenshot(page));
+    const shape = (first.right - first.left) / (first.bottom - first.top);
+    for (const [width, height] of [
+      [1000, 1300],
+      [950, 500],
+      [1600, 500],
+    ]) {
+      await page.setViewportSize({ width, height });
+      await settle(page);
+      const stage = await page.locator('#stage').boundingBox();
+      const box = boxOf(await screenshot(page));
+      const [across, down] = [box.right - box.left, box.bottom - box.top];
+      const what = `${layers[0]} at ${width} x ${height}: ${across} x ${down} of ${stage.width} x ${stage.height}`;
+      assert.ok(Math.abs(across - shape * down) <= 4, `its shape is kept, ${what}`);
+      assert.ok(box.left > 0 && box.right < stage.width - 1, `all of it is seen, ${what}`);
+      const most = Math.min(stage.width, shape * (stage.height - 24 - 92));
+      assert.ok(across > 0.9 * most && across <= most, `it is as large as it can be, ${what}`);
+    }
+    await page.setViewportSize({ width: 1200, height: 700 });
+    await settle(page);
+    const last = boxOf(await screenshot(page));
+    for (const side of ['left', 'right', 'top', 'bottom']) assert.ok(Math.abs(first[side] - last[side]) <= 1);
+  }
+  await page.close();
+});
+
 test('lines, features, border and umbilics are where they should be, in space', async () => {
   const { page } = await open('all.html');
   await only(page, 'surface', 'border');

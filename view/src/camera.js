@@ -2,6 +2,8 @@
 import { Matrix4, OrthographicCamera, Quaternion, Vector3 } from 'three';
 import { depth } from './materials.js';
 
+const fitting = (low, high, aspect) => 0.525 * Math.max(high[1] - low[1], (high[0] - low[0]) / aspect, 1e-6);
+
 export class View {
   constructor(turns) {
     this.turns = turns; // false in the plane, which only moves and grows
@@ -17,6 +19,20 @@ export class View {
       const matrix = new Matrix4().lookAt(eye, new Vector3(), up);
       this.orientation.setFromRotationMatrix(matrix);
     }
+    const { low, high, axes } = this.extent(points);
+    this.middle.set(0, 0, 0);
+    axes.forEach((axis, c) => this.middle.addScaledVector(axis, (low[c] + high[c]) / 2));
+    this.halfHeight = fitting(low, high, aspect);
+  }
+
+  /** After a pane has another width over height: as large in what fits as before. */
+  refit(points, before, after) {
+    const { low, high } = this.extent(points);
+    this.halfHeight *= fitting(low, high, after) / fitting(low, high, before);
+  }
+
+  /** The box of points along the axes of the view. */
+  extent(points) {
     const axes = [0, 1, 2].map((c) => new Vector3().setComponent(c, 1).applyQuaternion(this.orientation));
     const low = [Infinity, Infinity, Infinity];
     const high = [-Infinity, -Infinity, -Infinity];
@@ -26,9 +42,7 @@ export class View {
         if (x < low[c]) low[c] = x;
         if (x > high[c]) high[c] = x;
       }
-    this.middle.set(0, 0, 0);
-    axes.forEach((axis, c) => this.middle.addScaledVector(axis, (low[c] + high[c]) / 2));
-    this.halfHeight = 0.525 * Math.max(high[1] - low[1], (high[0] - low[0]) / aspect, 1e-6);
+    return { low, high, axes };
   }
 
   /** The camera for a pane of this width over height. */

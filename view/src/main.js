@@ -45,7 +45,7 @@ function picture(viewer, [width, height]) {
 function page(header, stage, viewer) {
   const main = document.getElementById('stage');
   const controls = document.getElementById('controls');
-  const size = () => viewer.resize(main.clientWidth, main.clientHeight, Math.min(window.devicePixelRatio || 1, 2));
+  const size = () => [main.clientWidth, main.clientHeight, Math.min(window.devicePixelRatio || 1, 2)];
   const chosen = (surface, result) => {
     stage.choose(surface, result);
     fillControls(controls, stage, viewer, chosen);
@@ -54,12 +54,12 @@ function page(header, stage, viewer) {
   };
   fillControls(controls, stage, viewer, chosen);
   viewer.onPick = fillFacts(document.getElementById('facts'), header.tables);
-  size();
+  viewer.resize(...size());
   viewer.fit();
   viewer.listen();
   viewer.draw();
   new ResizeObserver(() => {
-    size();
+    viewer.resizeKeepingView(...size());
     viewer.soon();
   }).observe(main);
 }

@@ -66,17 +66,34 @@ export class Viewer {
     });
   }
 
+  /** Width over height of the narrowest pane; infinite where there is none. */
+  aspect() {
+    return Math.min(...this.panes().map((p) => p.inner.width / p.inner.height));
+  }
+
+  spacePoints() {
+    return this.stage.surface?.points ?? this.stage.result.points;
+  }
+
+  /** After the page has another size: what was in a pane stays in it. */
+  resizeKeepingView(width, height, ratio) {
+    const before = this.aspect();
+    this.resize(width, height, ratio);
+    const after = this.aspect();
+    if (before === after || !Number.isFinite(before)) return;
+    this.space.refit(this.spacePoints(), before, after);
+    if (this.stage.surface?.planePoints) this.plane.refit(this.stage.surface.planePoints, before, after);
+  }
+
   /** Looks at everything from the direction asked for, or from where most is seen. */
   fit() {
-    const panes = this.panes();
-    if (!panes.length) return;
+    const aspect = this.aspect();
+    if (!Number.isFinite(aspect)) return;
     const { stage, header } = this;
-    const aspect = Math.min(...panes.map((p) => p.inner.width / p.inner.height));
-    const points = stage.surface?.points ?? stage.result.points;
     const chosen = chooseEye(stage.surface?.meanNormal() ?? [0, 0, 0]);
     const eye = header.eye ? new Vector3(...header.eye) : chosen.eye;
     const up = header.up ? new Vector3(...header.up) : header.eye ? upFor(eye) : chosen.up;
-    this.space.fit(points, aspect, eye, up);
+    this.space.fit(this.spacePoints(), aspect, eye, up);
     this.space.halfHeight /= header.zoom;
     if (header.middle) this.space.middle.set(...header.middle.map((x, c) => (x - header.centre[c]) / header.scale));
     if (stage.surface?.planePoints) this.plane.fit(stage.surface.planePoints, aspect);
@@ -87,13 +104,10 @@ export class Viewer {
     const { orientation } = this.space;
     const kept = orientation.clone();
     this.fit();
-    const panes = this.panes();
-    if (!panes.length) return;
+    const aspect = this.aspect();
+    if (!Number.isFinite(aspect)) return;
     orientation.copy(kept);
-    this.space.fit(
-      this.stage.surface?.points ?? this.stage.result.points,
-      Math.min(...panes.map((p) => p.inner.width / p.inner.height)),
-    );
+    this.space.fit(this.spacePoints(), aspect);
   }
 
   viewOf(pane) {
