@@ -23,6 +23,7 @@ int main(int argc, char* argv[]) {
   return command.run(argc, argv, [&] {
     polygons.validate();
     fit.validate();
+    polygons.for_fit = fit.enabled;
     balance.validate();
     auto mesh = apps::read_surface(command, input);
     anisomesh::MeshReport report;

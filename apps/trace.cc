@@ -1,4 +1,5 @@
 // anisomesh-trace: lines of curvature and isotropic samples.
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "anisomesh/io.hh"
@@ -21,6 +22,9 @@ int main(int argc, char* argv[]) {
   apps::add_density_options(command, epsilon, trace);
   apps::add_target_options(command, target);
   apps::add_mesh_options(command, polygons, "Polygons, for a target");
+  command.arguments()
+      .add_flag("--fit,!--no-fit", polygons.for_fit, "anisomesh-mesh will fit the polygons")
+      ->group("Polygons, for a target");
 
   return command.run(argc, argv, [&] {
     polygons.validate();

@@ -187,6 +187,11 @@ void add_mesh_options(Command& command, MeshOptions& options, const std::string&
   app.add_flag("--flip-edges,!--no-flip-edges", options.flip_edges,
                "Flip edges at isotropic samples where it lowers the error; on by default")
       ->group(heading);
+  app.add_option(
+         "--alignment-weight", options.alignment_weight,
+         "What an edge that is no line costs for leaving the principal directions, >= 0; a square costs 1")
+      ->type_name("W")
+      ->group(heading);
   app.add_flag("--join-lines,!--no-join-lines", options.join_lines,
                "Join two triangles to a quad across an edge of a line; on by default")
       ->group(heading);

@@ -117,7 +117,7 @@ int FitState::improve_often(int passes, size_t* held, const Progress& progress) 
 
 std::vector<Vec3d> FitState::solve() const {
   FitSystem system(free_, 6 * triangles_.corner.size() + 16 * mesh_.sides.size());
-  add_surface_terms(mesh_, triangles_, input_, pairs_, points_, options_, system);
+  add_surface_terms(mesh_, triangles_, input_, pairs_, points_, options_, energy_, system);
   double area = 0;
   for (const double a : triangles_.area) area += a;
   if (area > 0) {

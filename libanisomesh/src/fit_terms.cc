@@ -90,7 +90,8 @@ struct SideTensor {
   double weight = 0;
 };
 
-// The nearer principal direction's companion: the part of the side along it is what turns it away.
+// The nearer principal direction's companion: the part of the side along it is what turns it away. The sine
+// of the angle counts, not that part's length, or a short side across a long one would be turned for nothing.
 void add_turn(const FitMesh::Side& side, const SideTensor& curvature, const Vec3d& normal,
               double align_weight, Follow follow, const std::vector<Vec3d>& points, FitSystem& system) {
   const TangentFrame frame(normal);
@@ -108,7 +109,7 @@ void add_turn(const FitMesh::Side& side, const SideTensor& curvature, const Vec3
   const int v[2] = {side.from, side.to};
   const double factor[2] = {-1, 1};
   system.add_row(v, factor, away, -(along | away),
-                 align_weight * curvature.weight * sure * diagonal * diagonal);
+                 align_weight * curvature.weight * sure * diagonal * diagonal / (length * length));
 }
 
 void add_turns(const FitMesh& mesh, const FitTriangles& triangles, const std::vector<TriangleForm>& forms,
@@ -135,7 +136,7 @@ void add_turns(const FitMesh& mesh, const FitTriangles& triangles, const std::ve
 
 void add_surface_terms(const FitMesh& mesh, const FitTriangles& triangles, const FitInput& input,
                        const std::vector<FitPair>& pairs, const std::vector<Vec3d>& points,
-                       const FitOptions& options, FitSystem& system) {
+                       const FitOptions& options, double energy, FitSystem& system) {
   const auto forms = forms_of(triangles, input, pairs, points, options.normal_weight);
   const Vec6d identity(1, 0, 0, 1, 0, 1);
   for (size_t t = 0; t < forms.size(); ++t) {
@@ -148,7 +149,7 @@ void add_surface_terms(const FitMesh& mesh, const FitTriangles& triangles, const
     }
   }
   if (!input.tensor.empty() && options.alignment_weight > 0)
-    add_turns(mesh, triangles, forms, options.alignment_weight, input.follow, points, system);
+    add_turns(mesh, triangles, forms, energy * options.alignment_weight, input.follow, points, system);
 }
 
 void add_planarity(const FitMesh& mesh, const std::vector<Vec3d>& points, double weight, double total_area,

@@ -39,12 +39,21 @@ double epsilon_of(const OpenMesh::TriConnectivity& mesh) {
   return mesh.property(require_property(mesh, property::epsilon));
 }
 
+/// What MeshOptions::for_fit multiplies.
+constexpr double fitted_chains = 1.5, fitted_cells = 2, fitted_alignment = 4;
+
 /// Leaves no option to be found elsewhere.
 MeshOptions resolved(MeshOptions options, const OpenMesh::TriConnectivity& mesh) {
   if (options.cell_tolerance == 0)
     options.cell_tolerance = has_property(mesh, property::cell_tolerance)
                                  ? mesh.property(require_property(mesh, property::cell_tolerance))
                                  : 2;
+  if (options.for_fit) {
+    options.chain_tolerance *= fitted_chains;
+    options.cell_tolerance *= fitted_cells;
+    options.alignment_weight *= fitted_alignment;
+    options.for_fit = false;
+  }
   return options;
 }
 
@@ -107,6 +116,7 @@ void MeshOptions::validate() const {
     throw InvalidOption("corner_angle_degrees must be between 0 and 180");
   if (!(chain_tolerance >= 0)) throw InvalidOption("chain_tolerance must not be negative");
   if (!(cell_tolerance >= 0)) throw InvalidOption("cell_tolerance must not be negative");
+  if (!(alignment_weight >= 0)) throw InvalidOption("alignment_weight must not be negative");
   if (!(merge_fraction >= 0 && merge_fraction < 1)) throw InvalidOption("merge_fraction must be in [0, 1)");
   if (!(max_bend_degrees > 0 && max_bend_degrees <= 180))
     throw InvalidOption("max_bend_degrees must be above 0 and at most 180");
@@ -142,8 +152,9 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
   // the features alone are more than the faces that are wanted, must not make that cheap.
   const bool planar = drawing->network().planar;
   const double judged = planar ? epsilon : std::min(epsilon, feature_cell_tolerance * surface.diagonal());
-  const detail::PolygonJudge judge(surface, drawing->locator(), normals,
-                                   {judged, planar ? 10.0 : 100.0, options.max_bend_degrees});
+  const detail::PolygonJudge judge(
+      surface, drawing->locator(), normals,
+      {judged, planar ? 10.0 : 100.0, options.max_bend_degrees, options.alignment_weight});
   NetworkGraph network, start = drawing->network();
   std::vector<std::vector<int>> polygons;
   while (true) {

@@ -14,8 +14,7 @@ constexpr double degree = pi / 180;
 constexpr double triangle_base = 1.4;  // two triangles are worth avoiding unless the quad is badly shaped
 constexpr double shape_weight = 2;
 constexpr double error_weight = 0.6;
-constexpr double align_weight = 1;  // of an edge in the middle between two directions
-constexpr double bent = 3;          // a quad bent too far: worse than two good triangles
+constexpr double bent = 3;  // a quad bent too far: worse than two good triangles
 constexpr double least_cosine = 0.3;
 constexpr double averse = 30;      // for each corner where the cosine to the surface is below that
 constexpr double folded = 1e3;     // only where nothing else is left
@@ -95,9 +94,9 @@ double PolygonJudge::chord_cost(const RegionCorners& region, int a, int b) const
   SurfacePoint below;
   double cost = region.is_forbidden(a, b) ? forbidden : 0;
   if (middle_of(region, a, b, place, below))
-    cost +=
-        0.5 * error_cost(error_at(region, place, below)) +
-        0.5 * align_weight * directions_.misalignment(below, region.position[at(b)] - region.position[at(a)]);
+    cost += 0.5 * error_cost(error_at(region, place, below)) +
+            0.5 * options_.alignment_weight *
+                directions_.misalignment(below, region.position[at(b)] - region.position[at(a)]);
   return cost;
 }
 

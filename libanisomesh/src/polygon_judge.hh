@@ -53,6 +53,7 @@ struct JudgeOptions {
   double epsilon = 0;           ///< model units; 0 or infinite: not known, no cost for the error
   double max_error_ratio = 10;  ///< in epsilons: a chord farther from the surface costs no more
   double max_bend_degrees = 0;  ///< a quad bent more along a diagonal is split; 180: never
+  double alignment_weight = 1;  ///< of an edge in the middle between two principal directions
 };
 
 /// Costs are sums over polygons: about 1 for a square, more for what one would rather not have.

@@ -77,7 +77,9 @@ OpenMesh::PolyMesh remesh(const SurfaceRef& surface, const RemeshOptions& option
   if (options.max_error.max_error_fraction > 0) {
     result = remesh_within(surface, options, balance, done, sub_progress(progress, 0.4, 1));
   } else {
-    result = trace_and_mesh(surface, options.trace, options.mesh, options, &done,
+    MeshOptions mesh = options.mesh;
+    mesh.for_fit |= options.fit.enabled;
+    result = trace_and_mesh(surface, options.trace, mesh, options, &done,
                             sub_progress(progress, 0.4, options.fit.enabled ? 0.8 : 1));
     if (options.fit.enabled)
       done.balance = balance_vertices(surface, result, balance, options.fit, sub_progress(progress, 0.8, 1));

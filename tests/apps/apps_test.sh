@@ -71,7 +71,7 @@ fitted_stages_give_the_same_bytes)
   for run in "wave.off|--target-faces 300|--fit" "wave.off|--target-vertices 300 --follow min-abs|--fit --balance 3" \
     "flower.om|--epsilon 0.002|--fit --fit-passes 2 --balance 1" "torus.off|--target-faces 200|--fit --balance 0"; do
     IFS='|' read -r input density fit <<<"$run"
-    TRACE=$density MESH=$fit
+    TRACE="$density --fit" MESH=$fit
     in_a_row "$input" row.om
     # shellcheck disable=SC2086
     anisomesh-remesh -q "$input" -o one.om $density $fit

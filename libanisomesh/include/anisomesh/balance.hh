@@ -17,7 +17,7 @@ struct BalanceOptions {
   double triangle_cost = 0.8;
   /// What a side of mean length costs that lies diagonally to the principal directions, in the same unit; >=
   /// 0
-  double alignment_cost = 0.5;
+  double alignment_cost = 1.5;
   int max_degree = 4;     ///< 3: makes no quads; other than 3 and 4: no polygon is changed
   void validate() const;  ///< \throw InvalidOption
 };

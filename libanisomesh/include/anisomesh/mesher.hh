@@ -28,6 +28,13 @@ struct MeshOptions {
   /// gets further ones, in the same units; infinite: all samples are used as they are; >= 0.
   /// 0: what the trace stage has recorded, 2 where epsilon was given and 4 where it was found for a target
   double cell_tolerance = 0;
+  /// What an edge that is no line costs for lying in the middle between two principal directions, where a
+  /// square costs 1: more turns these edges and takes a little error; >= 0
+  double alignment_weight = 1;
+  /// The vertices will be moved by fit_vertices(), which takes out much of what wider tolerances cost: edges
+  /// follow the directions better and more polygons are quads with 1.5 times chain_tolerance, 2 times
+  /// cell_tolerance and 4 times alignment_weight. remesh() sets it where it fits
+  bool for_fit = false;
   bool join_lines = true;        ///< two triangles may become a quad across an edge of a line (max_degree 4)
   double merge_fraction = 0.2;   ///< contract edges shorter than this fraction of those they continue; [0, 1)
   double max_bend_degrees = 60;  ///< split quads that are bent more along a diagonal; (0, 180]
