@@ -278,3 +278,24 @@ TEST_CASE("where features need more faces than are asked for, the rest is not sp
   CHECK(c.two_sided.rms < 0.0004);  // 0.0009 with the largest epsilon of eight attempts
   check_sound(c);
 }
+
+TEST_CASE("a cancel is heard while the surface is coarsened under the lines", "[any_surface]") {
+  auto mesh = shape("torus", 6000);
+  estimate_curvature(mesh);
+  smooth_tensors(mesh);
+  find_umbilics(mesh);
+  TraceOptions options;
+  options.density.epsilon_fraction = 0.002;
+  trace_lines(mesh, options);
+  place_isotropic_samples(mesh, options);
+  size_t asked = 0;
+  build_polygons(mesh, {}, nullptr, [&](double fraction) {
+    if (fraction == 0) ++asked;
+    return true;
+  });
+  CHECK(asked > 6000 / 500);
+  const size_t whole = asked;
+  asked = 0;
+  CHECK_THROWS_AS(build_polygons(mesh, {}, nullptr, [&](double) { return ++asked < whole - 2; }), Cancelled);
+  CHECK(asked == whole - 2);
+}

@@ -39,16 +39,18 @@ class PlaneDrawing final : public Drawing {
 class SurfaceDrawing final : public Drawing {
  public:
   SurfaceDrawing(const SurfaceRef& surface, const SurfaceNormals& normals, const LineNetwork& lines,
-                 double corner_angle, double tolerance)
+                 double corner_angle, double tolerance, const std::function<void()>& breathe)
       : surface_(surface),
         lines_(lines),
         corner_angle_(corner_angle),
         locator_(surface),
         tolerance_(tolerance) {
     const Overlay overlay = overlay_lines(surface, lines, corner_angle);
+    breathe();
     network_ = network_of(surface, normals, overlay);
+    breathe();
     embedding_ = std::make_unique<MeshEmbedding>(surface, overlay, network_);
-    embedding_->coarsen(network_, tolerance);
+    embedding_->coarsen(network_, tolerance, breathe);
   }
   const SurfaceLocator& locator() const override { return locator_; }
   const NetworkGraph& network() const override { return network_; }
@@ -83,11 +85,11 @@ class SurfaceDrawing final : public Drawing {
 }  // namespace
 
 std::unique_ptr<Drawing> make_drawing(const SurfaceRef& surface, const SurfaceNormals& normals,
-                                      const LineNetwork& lines, double corner_angle_degrees,
-                                      double tolerance) {
+                                      const LineNetwork& lines, double corner_angle_degrees, double tolerance,
+                                      const std::function<void()>& breathe) {
   if (has_property(surface.connectivity(), property::uv))
     return std::make_unique<PlaneDrawing>(surface, normals, lines, corner_angle_degrees);
-  return std::make_unique<SurfaceDrawing>(surface, normals, lines, corner_angle_degrees, tolerance);
+  return std::make_unique<SurfaceDrawing>(surface, normals, lines, corner_angle_degrees, tolerance, breathe);
 }
 
 }  // namespace anisomesh::detail

@@ -2,6 +2,7 @@
 // parameter plane or on the surface itself. [ACDLD03, section 4.1 to 4.3]
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "cells.hh"
@@ -21,9 +22,10 @@ class Drawing {
 
 /// Draws the lines, samples, features and the border: in the plane if the surface carries uv.
 /// \param tolerance model units; what is drawn on the surface itself stays so near to it
+/// \param breathe called often meanwhile; it may throw to give up
 /// \throw CannotProcess if the drawing would cross itself
 std::unique_ptr<Drawing> make_drawing(const SurfaceRef& surface, const SurfaceNormals& normals,
-                                      const LineNetwork& lines, double corner_angle_degrees,
-                                      double tolerance);
+                                      const LineNetwork& lines, double corner_angle_degrees, double tolerance,
+                                      const std::function<void()>& breathe);
 
 }  // namespace anisomesh::detail

@@ -24,7 +24,7 @@ constexpr double negligible =
     1e-10;                        // squared, of the longest side: two nodes in one place but for rounding,
 constexpr double thinner = 0.02;  // which may leave so much of the area
 constexpr double pi = 3.14159265358979323846;
-constexpr int flip_passes = 50;
+constexpr int flip_passes = 50, vertices_a_breath = 256;
 constexpr size_t nearest_tried = 6;  // neighbours that a vertex may be moved to, unless nothing else is left
 
 }  // namespace
@@ -210,7 +210,8 @@ double MeshEmbedding::lowest_cosine(VertexHandle gone, VertexHandle keep) const 
 }
 
 // In passes that leave the neighbours of what went alone, so that the triangles stay of like size.
-void MeshEmbedding::coarsen(const NetworkGraph& network, double tolerance) {
+void MeshEmbedding::coarsen(const NetworkGraph& network, double tolerance,
+                            const std::function<void()>& breathe) {
   tolerance_ = tolerance;
   std::vector<int> waiting;
   const auto is_kept = [&](VertexHandle v) {
@@ -221,8 +222,8 @@ void MeshEmbedding::coarsen(const NetworkGraph& network, double tolerance) {
         !network.fixed[at(v.idx())] && !is_kept(v))
       waiting.push_back(v.idx());
   std::vector<int> touched(mesh_.n_vertices(), -1);
-  // Steps at which the neighbours of a vertex changed, and at which it could not go: it need not be tried again
-  // before something within two edges of it is another.
+  // Steps at which the neighbours of a vertex changed, and at which it could not go: it need not be tried
+  // again before something within two edges of it is another.
   std::vector<int> changed(mesh_.n_vertices(), 0), failed(mesh_.n_vertices(), -1);
   const auto is_as_before = [&](VertexHandle v) {
     const int last = failed[at(v.idx())];
@@ -244,6 +245,7 @@ void MeshEmbedding::coarsen(const NetworkGraph& network, double tolerance) {
           continue;
         }
         ++step;
+        if (breathe && step % vertices_a_breath == 0) breathe();
         std::vector<int> around;
         if (!is_as_before(v)) {
           for (const auto w : mesh_.vv_range(v)) around.push_back(w.idx());

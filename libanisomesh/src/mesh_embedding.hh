@@ -3,6 +3,7 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <array>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -35,7 +36,8 @@ class MeshEmbedding final : public Embedding {
   /// Takes out the nodes that no edge of the network leads to and that need not stay, as far as the topology
   /// allows and what is pinned stays within the tolerance (model units) of the triangles; but no vertex of
   /// the surface where no more than kept_share of the tolerances holds.
-  void coarsen(const NetworkGraph& network, double tolerance);
+  /// \param breathe called often; it may throw to give up
+  void coarsen(const NetworkGraph& network, double tolerance, const std::function<void()>& breathe = {});
 
   /// Flips edges that are not the network's until the triangles are well shaped (Delaunay's rule, over the
   /// two triangles laid flat).

@@ -133,8 +133,9 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
   const double epsilon = epsilon_of(surface.connectivity());
 
   const detail::SurfaceNormals normals(surface);
-  const auto drawing = detail::make_drawing(surface, normals, lines, options.corner_angle_degrees,
-                                            options.cell_tolerance * epsilon);
+  const auto drawing =
+      detail::make_drawing(surface, normals, lines, options.corner_angle_degrees,
+                           options.cell_tolerance * epsilon, [&progress] { report_progress(progress, 0); });
   local.crossings = drawing->network().crossings;
   local.arrangement_seconds = stopwatch.lap();
   report_progress(progress, 0.4);
