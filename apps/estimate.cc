@@ -30,11 +30,11 @@ int main(int argc, char* argv[]) {
     const auto estimated = anisomesh::estimate_curvature(surface, curvature, command.progress("curvature"));
     command.stop_if_cancelled();
     anisomesh::write_mesh(mesh, output);
-    apps::warn_of_sharp_edges(command, features, tagged);
     command.report()["features"] = apps::to_json(tagged);
     command.report()["curvature"] = apps::to_json(estimated);
     command.report()["output"] = output;
     command.say(output + ": curvature at " + std::to_string(mesh.n_vertices()) + " vertices, " +
                 std::to_string(tagged.feature_edges) + " feature edges, " + apps::seconds(estimated.seconds));
+    apps::tell_of_features(command, tagged);
   });
 }

@@ -122,7 +122,7 @@ int main(int argc, char* argv[]) {
                 (options.fit.enabled ? ", fit " + apps::seconds(report.fit.seconds) : "") + "; all " +
                 apps::seconds(report.seconds) +
                 (report.attempts > 1 ? " with " + std::to_string(report.attempts) + " attempts" : ""));
-    apps::warn_of_sharp_edges(command, features, report.features);
+    apps::tell_of_features(command, report.features);
     if (!report.target_met) command.warn("the count nearest to the target is off by more than 10 %");
     if (page.empty()) return;
     view::Meshes meshes;

@@ -17,6 +17,7 @@ namespace {
 struct MadeUp {
   std::function<double(double)> count = [](double epsilon) { return 1.8 / epsilon; };
   std::function<bool(double epsilon, size_t attempt)> refused = [](double, size_t) { return false; };
+  bool only_near = false;  ///< results far from the target are but a count
   std::vector<double> asked;
   double last = 0, kept = 0;  ///< epsilon
   int keeps = 0;
@@ -26,11 +27,13 @@ struct MadeUp {
     options.max_attempts = max_attempts;
     detail::EpsilonSearch steps;
     steps.crossings = [](double epsilon) { return 1 / epsilon; };
-    steps.make = [this](double epsilon) {
+    steps.make = [this, wanted](double epsilon, bool any) {
       asked.push_back(epsilon);
       if (refused(epsilon, asked.size() - 1)) throw CannotProcess("made up");
       last = epsilon;
-      return static_cast<size_t>(std::lround(count(epsilon)));
+      const double made = count(epsilon);
+      const bool far = only_near && !any && std::abs(made / wanted - 1) > 0.3;
+      return detail::EpsilonSearch::Made{static_cast<size_t>(std::lround(made)), !far};
     };
     steps.keep = [this] {
       kept = last;
@@ -154,4 +157,28 @@ TEST_CASE("the search ends with what else goes wrong at once", "[epsilon_search]
   made.refused = [](double, size_t) -> bool { throw Cancelled(); };
   CHECK_THROWS_AS(made.search(1000), Cancelled);
   CHECK(made.asked.size() == 1);
+}
+
+TEST_CASE("counts without a result lead to one all the same", "[epsilon_search]") {
+  MadeUp made;
+  made.only_near = true;
+  made.count = [](double epsilon) { return 9 / epsilon; };
+  const auto found = made.search(1000);
+  CHECK(found.met);
+  CHECK(made.count(made.kept) == Approx(1000).epsilon(0.1));
+  CHECK(found.tried.front().count == 5000);
+
+  // Where no count comes near, the nearest is made in the end, or one of less.
+  made.count = [](double) { return 4000.0; };
+  for (const size_t refusals : {0, 2}) {
+    made.asked.clear();
+    made.keeps = 0;
+    size_t in_the_end = 0;
+    made.refused = [&](double, size_t) { return made.asked.size() > 2 && in_the_end++ < refusals; };
+    const auto far = made.search(1000);
+    CHECK(!far.met);
+    CHECK(made.keeps == 1);
+    CHECK(made.kept == Approx(std::pow(0.85, refusals) * made.asked[0]));
+    CHECK(far.attempts == static_cast<int>(made.asked.size()));
+  }
 }

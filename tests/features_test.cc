@@ -1,7 +1,12 @@
 #include "anisomesh/features.hh"
 
+#include <array>
+#include <cmath>
+#include <map>
+
 #include "anisomesh/errors.hh"
 #include "anisomesh/io.hh"
+#include "anisomesh/properties.hh"
 #include "anisomesh/shapes.hh"
 #include "catch.hh"
 #include "data.hh"
@@ -32,7 +37,7 @@ OpenMesh::TriMesh folded_sheet(int n, double fold_degrees) {
 
 TEST_CASE("automatic features are those of parts, and a scan has none", "[features]") {
   FeatureOptions options;
-  options.automatic = true;
+  options.keep_existing = false;  // those that the shape brings along
   auto cube = make_shape("cube", {});
   const auto of_cube = tag_features(cube, options);
   CHECK(of_cube.angle_degrees == 40);
@@ -44,13 +49,76 @@ TEST_CASE("automatic features are those of parts, and a scan has none", "[featur
   const auto of_sphere = tag_features(sphere, options);
   CHECK(of_sphere.angle_degrees == 0);
   CHECK(of_sphere.feature_edges == 0);
-  options.angle_degrees = 30;
-  CHECK_THROWS_AS(tag_features(sphere, options), InvalidOption);
+}
+
+TEST_CASE("what the user says of features goes before what is found", "[features]") {
+  const auto sharp_edges = [](const FeatureOptions& options, auto& mesh) {
+    const auto report = tag_features(mesh, options);
+    CHECK(!report.automatic);
+    CHECK(mesh.property(require_property(mesh, property::feature_tolerance)) == Approx(4e-4));
+    return report.feature_edges;
+  };
+  FeatureOptions options;
+  auto cube = make_shape("cube", {});
+  options.keep_existing = false;  // those that the shape brings along
+  CHECK(tag_features(cube, options).automatic);
+  CHECK(cube.property(require_property(cube, property::feature_tolerance)) == 1);
+  options.keep_existing = true;
+  CHECK(!tag_features(cube, options).automatic);  // tags of the mesh are kept, and what was recorded of them
+  CHECK(cube.property(require_property(cube, property::feature_tolerance)) == 1);
+  options.angle_degrees = 100;
+  options.keep_existing = false;
+  auto other = make_shape("cube", {});
+  CHECK(tag_features(other, options).feature_edges == 0);
+  options.angle_degrees = 0;
+  const auto first = *other.edges_begin();
+  options.edges = {{first.v0().idx(), first.v1().idx()}};
+  CHECK(sharp_edges(options, other) == 1);
+}
+
+TEST_CASE("a surface of steps is no part", "[features]") {
+  // The skin of a ball of boxes: every vertex is a corner.
+  const int n = 12;
+  const auto inside = [&](int x, int y, int z) {
+    const double c = 0.5 * (n - 1);
+    return std::hypot(x - c, std::hypot(y - c, z - c)) < 0.45 * n;
+  };
+  std::map<std::array<int, 3>, OpenMesh::VertexHandle> corners;
+  OpenMesh::TriMesh mesh;
+  const auto corner = [&](std::array<int, 3> at) {
+    const auto found = corners.find(at);
+    return found != corners.end() ? found->second
+                                  : corners[at] = mesh.add_vertex({1.0 * at[0], 1.0 * at[1], 1.0 * at[2]});
+  };
+  bool whole = true;
+  for (int x = 0; x < n; ++x)
+    for (int y = 0; y < n; ++y)
+      for (int z = 0; z < n; ++z)
+        for (size_t axis = 0; axis < 3; ++axis)
+          for (const int side : {0, 1}) {
+            std::array<int, 3> beyond{x, y, z};
+            beyond[axis] += side == 1 ? 1 : -1;
+            if (!inside(x, y, z) || inside(beyond[0], beyond[1], beyond[2])) continue;
+            std::array<OpenMesh::VertexHandle, 4> ring;
+            for (size_t k = 0; k < 4; ++k) {
+              std::array<int, 3> at{x, y, z};
+              at[axis] += side;
+              const size_t turn = side == 1 ? k : 3 - k;
+              at[(axis + 1) % 3] += turn == 1 || turn == 2;
+              at[(axis + 2) % 3] += turn >= 2;
+              ring[k] = corner(at);
+            }
+            whole = whole && mesh.add_face(ring[0], ring[1], ring[2]).is_valid() &&
+                    mesh.add_face(ring[0], ring[2], ring[3]).is_valid();
+          }
+  REQUIRE(whole);
+  const auto report = tag_features(mesh, {});
+  CHECK(report.sharp > 2 * report.rounded);
+  CHECK(report.feature_edges == 0);
 }
 
 TEST_CASE("real parts and scans are told apart", "[features][data]") {
-  FeatureOptions options;
-  options.automatic = true;
+  const FeatureOptions options;
   const std::vector<std::pair<std::string, bool>> meshes{
       {"anchor.off", true}, {"couplingdown.off", true}, {"lion-head.off", false}, {"elephant.off", false}};
   for (const auto& [name, is_part] : meshes) {

@@ -44,14 +44,13 @@ void add_feature_options(Command& command, FeatureFlags& flags) {
   app.add_option_function<std::string>(
          "--feature-angle",
          [&flags](const std::string& text) {
-           flags.angle_given = true;
            flags.automatic = text == "auto";
            if (!flags.automatic && !CLI::detail::lexical_cast(text, flags.angle_degrees))
              throw CLI::ValidationError("--feature-angle", "'" + text + "' is neither a number nor auto");
          },
-         "Tag edges whose faces' normals differ by more than this, in degrees; 0: none; auto: 40 on parts "
-         "that have sharp edges and little in between, none elsewhere")
-      ->default_str("0")
+         "Tag edges whose faces' normals differ by more than this, in degrees; 0: none; auto: where nothing "
+         "else names features, 40 on parts that have sharp edges and little in between, none elsewhere")
+      ->default_str("auto")
       ->type_name("DEG")
       ->group("Features");
   app.add_option("--feature-file", flags.file,
@@ -62,12 +61,10 @@ void add_feature_options(Command& command, FeatureFlags& flags) {
       ->group("Features");
 }
 
-void warn_of_sharp_edges(const Command& command, const FeatureFlags& flags,
-                         const anisomesh::FeatureReport& report) {
-  if (flags.angle_given || report.feature_edges > 0 || !report.is_mechanical()) return;
-  command.warn("sharp edges make up " + std::to_string(static_cast<int>(std::lround(100 * report.sharp))) +
-               " % of all edges and none is kept; --feature-angle auto keeps them, --feature-angle 0 ends "
-               "this warning");
+void tell_of_features(Command& command, const FeatureReport& report) {
+  if (report.automatic)
+    command.say("  " + std::to_string(report.feature_edges) +
+                " sharp edges are taken for features; --feature-angle 0 takes none");
 }
 
 void add_curvature_options(Command& command, CurvatureOptions& options) {
@@ -205,6 +202,12 @@ void add_mesh_options(Command& command, MeshOptions& options, const std::string&
          "Cells farther than this from the surface get samples, in epsilons; inf: none; 0: 2 by --epsilon, "
          "4 for a target")
       ->type_name("T")
+      ->group(heading);
+  app.add_option(
+         "--feature-tolerance", options.feature_tolerance,
+         "Features are followed this nearly whatever epsilon is, as a fraction of the diagonal; 0: 0.0004 "
+         "where they were asked for, no bound where they were found")
+      ->type_name("F")
       ->group(heading);
   app.add_option("--merge-fraction", options.merge_fraction,
                  "Edges shorter than this fraction of those they continue are contracted, in [0, 1)")

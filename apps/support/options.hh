@@ -13,8 +13,7 @@ namespace apps {
 /// What the command line says, where the library wants it resolved against the mesh.
 struct FeatureFlags {
   double angle_degrees = 0;
-  bool angle_given = false;
-  bool automatic = false;
+  bool automatic = true;
   std::string file;
   bool only_new = false;
 };
@@ -42,9 +41,8 @@ void add_fit_options(Command& command, anisomesh::FitOptions& fit, anisomesh::Ba
 /// --max-error.
 void add_max_error_option(Command& command, anisomesh::MaxErrorOptions& options);
 
-/// A warning where a part with sharp edges is taken without features and nothing was said of them.
-void warn_of_sharp_edges(const Command& command, const FeatureFlags& flags,
-                         const anisomesh::FeatureReport& report);
+/// Says so where features were found that nobody asked for.
+void tell_of_features(Command& command, const anisomesh::FeatureReport& report);
 /// Reads --feature-file; its vertices are those of the file, before anything was dropped on reading.
 /// \throw InvalidInput
 anisomesh::FeatureOptions resolve(const FeatureFlags& flags, const anisomesh::ReadReport& read);

@@ -32,6 +32,8 @@ Json to_json(const FeatureReport& r) {
           {"by_list", r.by_list},
           {"sharp", r.sharp},
           {"rounded", r.rounded},
+          {"automatic", r.automatic},
+          {"corners", r.corners},
           {"mechanical", r.is_mechanical()},
           {"seconds", r.seconds}};
 }

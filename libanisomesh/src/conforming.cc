@@ -27,6 +27,30 @@ bool turns_left(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   return turn(a, b, c) > 1e-7 * (b - a).norm() * (c - a).norm();
 }
 
+// Whether the direction from corner i to corner j points inside at i.
+bool sees(const RegionCorners& region, int i, int j) {
+  const int n = static_cast<int>(region.loop);
+  const Vec2d &p = region.uv[at(i)], &q = region.uv[at(j)];
+  const Vec2d &before = region.uv[at((i + n - 1) % n)], &after = region.uv[at((i + 1) % n)];
+  if (turn(before, p, after) > 0) return turns_left(p, after, q) && turns_left(before, p, q);
+  return turns_left(p, after, q) || turns_left(before, p, q);
+}
+
+// Whether a chord lies inside and meets no side.
+bool is_inner(const RegionCorners& region, int i, int j) {
+  if (!sees(region, i, j) || !sees(region, j, i)) return false;
+  const int n = static_cast<int>(region.loop);
+  const Vec2d &p = region.uv[at(i)], &q = region.uv[at(j)];
+  for (int k = 0; k < n; ++k) {
+    const int next = (k + 1) % n;
+    if (k == i || k == j || next == i || next == j) continue;
+    const Vec2d &a = region.uv[at(k)], &b = region.uv[at(next)];
+    const bool apart = turn(p, q, a) * turn(p, q, b) > 0 || turn(a, b, p) * turn(a, b, q) > 0;
+    if (!apart) return false;
+  }
+  return true;
+}
+
 // The best partition of a simple polygon into triangles and quads, by dynamic programming over the
 // subpolygons i..j that a chord cuts off.
 class Partition {
@@ -37,7 +61,7 @@ class Partition {
     best_.assign(squared, {});
     allowed_.assign(squared, 0);
     for (int i = 0; i < n_; ++i)
-      for (int j = i + 1; j < n_; ++j) allowed_[key(i, j)] = is_inner(i, j);
+      for (int j = i + 1; j < n_; ++j) allowed_[key(i, j)] = is_side(i, j) || is_inner(region, i, j);
   }
 
   // Empty if there is none, which exact arithmetic would rule out.
@@ -56,8 +80,6 @@ class Partition {
   };
   size_t key(int i, int j) const { return at(i) * region_.loop + at(j); }
   bool is_side(int i, int j) const { return j == i + 1 || (i == 0 && j == n_ - 1); }
-  bool is_inner(int i, int j) const;
-  bool sees(int i, int j) const;
   void solve(int i, int j);
   void collect(int i, int j, std::vector<Piece>& pieces) const;
 
@@ -68,28 +90,6 @@ class Partition {
   std::vector<Choice> best_;
   std::vector<char> allowed_;
 };
-
-// Whether the direction from corner i to corner j points inside at i.
-bool Partition::sees(int i, int j) const {
-  const Vec2d &p = region_.uv[at(i)], &q = region_.uv[at(j)];
-  const Vec2d &before = region_.uv[at((i + n_ - 1) % n_)], &after = region_.uv[at((i + 1) % n_)];
-  if (turn(before, p, after) > 0) return turns_left(p, after, q) && turns_left(before, p, q);
-  return turns_left(p, after, q) || turns_left(before, p, q);
-}
-
-bool Partition::is_inner(int i, int j) const {
-  if (is_side(i, j)) return true;
-  if (!sees(i, j) || !sees(j, i)) return false;
-  const Vec2d &p = region_.uv[at(i)], &q = region_.uv[at(j)];
-  for (int k = 0; k < n_; ++k) {
-    const int next = (k + 1) % n_;
-    if (k == i || k == j || next == i || next == j) continue;
-    const Vec2d &a = region_.uv[at(k)], &b = region_.uv[at(next)];
-    const bool apart = turn(p, q, a) * turn(p, q, b) > 0 || turn(a, b, p) * turn(a, b, q) > 0;
-    if (!apart) return false;
-  }
-  return true;
-}
 
 void Partition::solve(int i, int j) {
   Choice& choice = best_[key(i, j)];
@@ -159,11 +159,30 @@ bool acceptable(const RegionCorners& region, const Piece& piece, const Partition
   return !options.convex || PolygonJudge::is_convex(positions_of(region, piece));
 }
 
-// Small enough pieces for the search: convex ones where CGAL's partition finds them.
-std::vector<Piece> cut_up(const RegionCorners& region) {
-  const auto pieces =
-      convex_partition({region.uv.begin(), region.uv.begin() + static_cast<std::ptrdiff_t>(region.loop)});
-  return pieces.empty() ? cut_ears(region) : pieces;
+std::vector<Piece> cut_convex(const RegionCorners& region) {
+  return convex_partition({region.uv.begin(), region.uv.begin() + static_cast<std::ptrdiff_t>(region.loop)});
+}
+
+// Two parts of a quarter of the corners at least, by the shortest chord: that one leaves the surface least.
+std::vector<Piece> cut_in_two(const RegionCorners& region) {
+  const int n = static_cast<int>(region.loop), least = n / 4;
+  double shortest = std::numeric_limits<double>::infinity();
+  int from = -1, to = -1;
+  for (int i = 0; i < n; ++i)
+    for (int j = i + least; j < n && n - (j - i) >= least; ++j) {
+      const double squared = (region.position[at(j)] - region.position[at(i)]).sqrnorm();
+      if (squared >= shortest || region.is_forbidden(i, j) || !is_inner(region, i, j)) continue;
+      shortest = squared;
+      from = i;
+      to = j;
+    }
+  if (from < 0) return {};
+  std::vector<Piece> parts(2);
+  for (int i = 0; i < n; ++i) {
+    if (from <= i && i <= to) parts[0].push_back(i);
+    if (i <= from || to <= i) parts[1].push_back(i);
+  }
+  return parts;
 }
 
 }  // namespace
@@ -211,7 +230,9 @@ std::vector<Piece> partition_region(const RegionCorners& region, const PolygonJu
 
   const bool large = region.loop > search_limit;
   if (large || options.max_degree == 0) {
-    std::vector<Piece> pieces = cut_up(region), result;
+    std::vector<Piece> pieces = cut_convex(region), result;
+    if (pieces.size() < 2 && large) pieces = cut_in_two(region);
+    if (pieces.empty()) pieces = cut_ears(region);
     if (pieces.size() > 1) {
       for (const Piece& piece : pieces)
         for (Piece& part : partition_region(part_of(region, piece), judge, options)) {

@@ -39,12 +39,16 @@ struct Trial {
   double off() const { return std::abs(std::exp(log_ratio) - 1); }
 };
 
+const Trial& nearest_of(const std::vector<Trial>& trials) {
+  return *std::min_element(trials.begin(), trials.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.log_ratio) < std::abs(b.log_ratio);
+  });
+}
+
 /// Where to look next: the model scaled to the nearest attempt, or the secant through the two that enclose
 /// the target, kept inside what is known.
 double next_epsilon(const std::vector<Trial>& attempts, const std::function<double(double)>& crossings) {
-  const auto nearest = *std::min_element(attempts.begin(), attempts.end(), [](const auto& a, const auto& b) {
-    return std::abs(a.log_ratio) < std::abs(b.log_ratio);
-  });
+  const Trial& nearest = nearest_of(attempts);
   const Trial *above = nullptr, *below = nullptr;  // the tightest attempts with too many and too few
   for (const Trial& a : attempts) {
     if (a.log_ratio > 0 && (!above || a.log_epsilon > above->log_epsilon)) above = &a;
@@ -93,6 +97,26 @@ bool is_tried(double epsilon, const std::vector<Trial>& trials) {
                      [epsilon](const Trial& t) { return is_same(std::log(epsilon), t.log_epsilon); });
 }
 
+Trial trial_of(double epsilon, size_t count, double wanted) {
+  return {std::log(epsilon), std::log(std::max(static_cast<double>(count), 0.5) / wanted)};
+}
+
+/// A result where there were only counts so far. \throw CannotProcess after too many refusals
+Trial make_at_any_count(double epsilon, double wanted, const EpsilonSearch& search, FoundEpsilon& found) {
+  for (size_t refusals = 0;; ++refusals) {
+    ++found.attempts;
+    try {
+      const size_t count = search.make(epsilon, true).count;
+      search.keep();
+      found.tried.push_back({epsilon, count});
+      return trial_of(epsilon, count, wanted);
+    } catch (const CannotProcess&) {
+      if (refusals == kMostRefusals) throw;
+      epsilon *= kNextAfterRefusal;
+    }
+  }
+}
+
 }  // namespace
 
 FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const EpsilonSearch& search) {
@@ -103,9 +127,9 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
   double epsilon = epsilon_of(wanted / kFirstRatio, search.crossings);
   for (;;) {
     const bool is_last = ++found.attempts >= options.max_attempts;
-    size_t count = 0;
+    EpsilonSearch::Made made;
     try {
-      count = search.make(epsilon);
+      made = search.make(epsilon, is_last);
     } catch (const CannotProcess&) {
       refused.push_back(epsilon);
       if (refused.size() > kMostRefusals || is_last) {
@@ -115,12 +139,12 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
       epsilon = after_refusal(epsilon, trials);
       continue;
     }
-    found.tried.push_back({epsilon, count});
-    trials.push_back({std::log(epsilon), std::log(std::max(static_cast<double>(count), 0.5) / wanted)});
+    found.tried.push_back({epsilon, made.count});
+    trials.push_back(trial_of(epsilon, made.count, wanted));
     const double off = trials.back().off();
     const bool stalled = is_stalled(trials);
     const bool met = off <= options.tolerance || (found.attempts >= 3 && off <= kMet);
-    if (met || (off < best_off && !stalled)) {
+    if (made.has_result && (met || (off < best_off && !stalled))) {
       best_off = off;
       search.keep();
     }
@@ -129,6 +153,10 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
       epsilon = after_refusal(epsilon, trials);
     const bool stuck = is_tried(epsilon, trials);
     if (met || is_last || stuck || stalled || (found.attempts >= 3 && best_off <= kMet)) break;
+  }
+  if (!std::isfinite(best_off)) {
+    epsilon = std::exp(nearest_of(trials).log_epsilon);
+    best_off = make_at_any_count(epsilon, wanted, search, found).off();
   }
   found.met = best_off <= kMet;
   return found;

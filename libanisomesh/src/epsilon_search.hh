@@ -11,9 +11,13 @@ namespace anisomesh::detail {
 struct EpsilonSearch {
   /// How many crossings a density asks for, epsilon as a fraction of the diagonal: falls as epsilon grows.
   std::function<double(double epsilon)> crossings;
-  /// Makes a result. \return its faces or vertices \throw CannotProcess where there can be none with this
-  /// epsilon
-  std::function<size_t(double epsilon)> make;
+  struct Made {
+    size_t count = 0;  ///< faces or vertices
+    bool has_result = true;
+  };
+  /// Makes a result; unless one is wanted at `any` count, it may be the count alone where that is far from
+  /// the target. \throw CannotProcess where there can be none with this epsilon
+  std::function<Made(double epsilon, bool any)> make;
   /// The result that was made last is the best so far.
   std::function<void()> keep;
 };

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "anisomesh/errors.hh"
+#include "anisomesh/properties.hh"
 
 namespace anisomesh {
 
@@ -17,7 +18,9 @@ using OpenMesh::HalfedgeHandle;
 using OpenMesh::TriConnectivity;
 using OpenMesh::VertexHandle;
 
-constexpr double sharp_degrees = 40;
+constexpr double sharp_degrees = 40, corner_degrees = 45;
+constexpr double followed = 4e-4;  // features that were asked for, of the diagonal
+constexpr double unbounded = 1;
 constexpr double needle = 0.01;  // twice the area over the squared longest side: no thinner
 constexpr int needle_steps = 8;  // from needle to needle
 constexpr double pi = 3.14159265358979323846;
@@ -167,10 +170,42 @@ class SkeletonBuilder {
 void FeatureOptions::validate() const {
   if (!(angle_degrees >= 0 && angle_degrees < 180))
     throw InvalidOption("angle_degrees is " + std::to_string(angle_degrees) + ", must be in [0, 180)");
-  if (automatic && angle_degrees > 0)
-    throw InvalidOption("angle_degrees is " + std::to_string(angle_degrees) +
-                        " and automatic is set: give one");
 }
+
+namespace {
+
+/// Turns of all edges, degrees; fills in what the report says of them.
+std::vector<double> measure_turns(const SurfaceRef& surface, FeatureReport& report) {
+  const auto& mesh = surface.connectivity();
+  double length = 0;
+  std::vector<double> turns(mesh.n_edges(), 0);
+  std::vector<std::vector<Vec3d>> sharp(mesh.n_vertices());  // directions of sharp edges
+  for (const auto e : mesh.edges()) {
+    if (mesh.is_boundary(e)) continue;
+    const double turn = turns[static_cast<size_t>(e.idx())] = turn_at(surface, e);
+    const HalfedgeHandle h = mesh.halfedge_handle(e, 0);
+    const Vec3d along = direction(surface, h);
+    length += along.norm();
+    if (turn > sharp_degrees) {
+      report.sharp += along.norm();
+      sharp[static_cast<size_t>(mesh.from_vertex_handle(h).idx())].push_back(along);
+      sharp[static_cast<size_t>(mesh.to_vertex_handle(h).idx())].push_back(-along);
+    } else if (turn > sharp_degrees / 2) {
+      report.rounded += along.norm();
+    }
+  }
+  if (length > 0) {
+    report.sharp /= length;
+    report.rounded /= length;
+  }
+  report.vertices = mesh.n_vertices();
+  for (const auto& leaving : sharp)
+    report.corners += !leaving.empty() &&
+                      (leaving.size() != 2 || 180 - angle_between(leaving[0], leaving[1]) > corner_degrees);
+  return turns;
+}
+
+}  // namespace
 
 FeatureReport tag_features(const SurfaceRef& surface, const FeatureOptions& options) {
   const auto start = std::chrono::steady_clock::now();
@@ -181,24 +216,11 @@ FeatureReport tag_features(const SurfaceRef& surface, const FeatureOptions& opti
   if (options.keep_existing && mesh.has_edge_status())
     for (const auto e : mesh.edges()) tagged[static_cast<size_t>(e.idx())] = mesh.status(e).feature();
   for (const auto e : listed_edges(mesh, options.edges)) tagged[static_cast<size_t>(e.idx())] |= 2;
-  double length = 0;
-  std::vector<double> turns(mesh.n_edges(), 0);
-  for (const auto e : mesh.edges()) {
-    if (mesh.is_boundary(e)) continue;
-    const double turn = turns[static_cast<size_t>(e.idx())] = turn_at(surface, e);
-    const double l = direction(surface, mesh.halfedge_handle(e, 0)).norm();
-    length += l;
-    if (turn > sharp_degrees)
-      report.sharp += l;
-    else if (turn > sharp_degrees / 2)
-      report.rounded += l;
-  }
-  if (length > 0) {
-    report.sharp /= length;
-    report.rounded /= length;
-  }
-  report.angle_degrees =
-      options.automatic ? (report.is_mechanical() ? sharp_degrees : 0) : options.angle_degrees;
+  const std::vector<double> turns = measure_turns(surface, report);
+  const bool told = options.angle_degrees > 0 ||
+                    std::any_of(tagged.begin(), tagged.end(), [](char tag) { return tag != 0; });
+  report.automatic = options.automatic && !told && report.is_mechanical();
+  report.angle_degrees = report.automatic ? sharp_degrees : options.angle_degrees;
   if (report.angle_degrees > 0)
     for (size_t e = 0; e < turns.size(); ++e)
       if (turns[e] > report.angle_degrees) tagged[e] |= 4;
@@ -211,6 +233,10 @@ FeatureReport tag_features(const SurfaceRef& surface, const FeatureOptions& opti
     report.by_list += (tag & 2) != 0;
     report.by_angle += (tag & 4) != 0;
   }
+  // Tags that the mesh brings along keep what was recorded of them.
+  if (report.automatic || report.by_angle + report.by_list > 0)
+    mesh.property(provide_property(mesh, property::feature_tolerance)) =
+        report.automatic ? unbounded : followed;
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }

@@ -43,8 +43,9 @@ class MeshEmbedding final : public Embedding {
   /// two triangles laid flat).
   void flip(const NetworkGraph& network);
 
-  /// A place of the surface inside a triangle that has all corners on features or other sharp edges: without
-  /// it nothing but those would know where the surface is, as in the wall of a hole between its rims.
+  /// A place of the surface inside a triangle that has all corners on features or other sharp edges or that
+  /// many lines cross: without it nothing would know where the surface is between them, as in the wall of a
+  /// hole between its rims.
   struct Sample {
     SurfacePoint point;
     Vec3d position;

@@ -1,5 +1,6 @@
 #include "anisomesh/mesher.hh"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -9,6 +10,7 @@
 #include "anisomesh/properties.hh"
 #include "drawing.hh"
 #include "joining.hh"
+#include "polygon_attempt.hh"
 #include "polygon_output.hh"
 #include "polygons.hh"
 #include "soundness.hh"
@@ -54,17 +56,20 @@ MeshOptions resolved(MeshOptions options, const OpenMesh::TriConnectivity& mesh)
     options.alignment_weight *= fitted_alignment;
     options.for_fit = false;
   }
+  if (options.feature_tolerance == 0)
+    options.feature_tolerance = has_property(mesh, property::feature_tolerance)
+                                    ? mesh.property(require_property(mesh, property::feature_tolerance))
+                                    : 4e-4;
   return options;
 }
 
 // Polygons that would be folded, concave or without area are given other chances with more samples around
 // them.
 constexpr size_t max_retries = 8;
-constexpr size_t patience = 4;                   // retries, before vertices are given up for sound polygons
-constexpr double feature_cell_tolerance = 2e-3;  // of the diagonal, of cells at features
-constexpr double feature_tolerance = 4e-4;       // of the diagonal, however large epsilon is
-constexpr double tiny = 0.05;                    // of epsilon: no edge need be as short
-constexpr double around = 1.5;                   // diameters of such a polygon
+constexpr size_t patience = 4;           // retries, before vertices are given up for sound polygons
+constexpr double cells_at_features = 5;  // times the tolerance of features
+constexpr double tiny = 0.05;            // of epsilon: no edge need be as short
+constexpr double around = 1.5;           // diameters of such a polygon
 
 // Halves the share of the tolerances that holds near some polygons. Isotropic samples that no tolerance moves
 // need not stay any longer.
@@ -96,13 +101,16 @@ void take_more_care(const std::vector<std::vector<int>>& polygons, const Network
                       std::to_string(middle[2]) + "); smooth the input there or try a smaller epsilon");
 }
 
-void count_faces(const OpenMesh::PolyMesh& mesh, MeshReport& report) {
-  report.vertices = mesh.n_vertices();
-  report.faces = mesh.n_faces();
-  for (const auto f : mesh.faces()) {
-    const auto degree = mesh.valence(f);
-    report.triangles += degree == 3;
-    report.quads += degree == 4;
+void count_polygons(const std::vector<std::vector<int>>& polygons, MeshReport& report) {
+  std::vector<int> nodes;
+  for (const auto& polygon : polygons) nodes.insert(nodes.end(), polygon.begin(), polygon.end());
+  std::sort(nodes.begin(), nodes.end());
+  report.vertices = static_cast<size_t>(std::unique(nodes.begin(), nodes.end()) - nodes.begin());
+  report.faces = polygons.size();
+  report.triangles = report.quads = 0;
+  for (const auto& polygon : polygons) {
+    report.triangles += polygon.size() == 3;
+    report.quads += polygon.size() == 4;
   }
 }
 
@@ -117,13 +125,22 @@ void MeshOptions::validate() const {
   if (!(chain_tolerance >= 0)) throw InvalidOption("chain_tolerance must not be negative");
   if (!(cell_tolerance >= 0)) throw InvalidOption("cell_tolerance must not be negative");
   if (!(alignment_weight >= 0)) throw InvalidOption("alignment_weight must not be negative");
+  if (!(feature_tolerance >= 0)) throw InvalidOption("feature_tolerance must not be negative");
   if (!(merge_fraction >= 0 && merge_fraction < 1)) throw InvalidOption("merge_fraction must be in [0, 1)");
   if (!(max_bend_degrees > 0 && max_bend_degrees <= 180))
     throw InvalidOption("max_bend_degrees must be above 0 and at most 180");
 }
 
-OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& given, MeshReport* report,
+OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& options, MeshReport* report,
                                   const Progress& progress) {
+  return detail::attempt_polygons(
+             surface, options, [](size_t, size_t) { return true; }, report, progress)
+      .mesh;
+}
+
+detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const MeshOptions& given,
+                                                const IsWanted& is_wanted, MeshReport* report,
+                                                const Progress& progress) {
   given.validate();
   const MeshOptions options = resolved(given, surface.connectivity());
   MeshReport local;
@@ -140,19 +157,19 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
   local.arrangement_seconds = stopwatch.lap();
   report_progress(progress, 0.4);
 
-  const double chain_tolerance = options.chain_tolerance * epsilon;
-  const detail::DecimationOptions decimation{chain_tolerance,
-                                             std::min(chain_tolerance, 0.01 * surface.diagonal()),
-                                             feature_tolerance * surface.diagonal(), options.merge_fraction,
-                                             std::isfinite(epsilon) ? tiny * epsilon : 0};
+  const double chain_tolerance = options.chain_tolerance * epsilon,
+               feature_tolerance = options.feature_tolerance * surface.diagonal();
+  const detail::DecimationOptions decimation{
+      chain_tolerance, std::min(chain_tolerance, 0.01 * surface.diagonal()), feature_tolerance,
+      options.merge_fraction, std::isfinite(epsilon) ? tiny * epsilon : 0};
   const detail::RegionOptions region_options{{options.max_degree, options.convex},
                                              options.cell_tolerance * epsilon,
                                              options.flip_edges,
-                                             feature_cell_tolerance * surface.diagonal()};
+                                             cells_at_features * feature_tolerance};
   // On the surface nothing but the judge keeps a cell from being bridged, so that a large epsilon, as where
   // the features alone are more than the faces that are wanted, must not make that cheap.
   const bool planar = drawing->network().planar;
-  const double judged = planar ? epsilon : std::min(epsilon, feature_cell_tolerance * surface.diagonal());
+  const double judged = planar ? epsilon : std::min(epsilon, cells_at_features * feature_tolerance);
   const detail::PolygonJudge judge(
       surface, drawing->locator(), normals,
       {judged, planar ? 10.0 : 100.0, options.max_bend_degrees, options.alignment_weight});
@@ -181,18 +198,24 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
     local.polygon_seconds += stopwatch.lap();
     report_progress(progress, 0.8);
     if (unsound.empty()) break;
+    count_polygons(polygons, local);
+    if (!is_wanted(local.vertices, local.faces)) {
+      local.seconds = total.lap();
+      if (report) *report = local;
+      return {};
+    }
     ++local.retries;
     if (local.retries > max_retries) refuse(unsound.front(), network, unsound.size());
     take_more_care(unsound, network, local.retries >= patience, start);
   }
-  OpenMesh::PolyMesh mesh = detail::make_mesh(network, polygons);
+  PolygonAttempt done{detail::make_mesh(network, polygons), true};
   local.polygon_seconds += stopwatch.lap();
   report_progress(progress, 1);
 
-  count_faces(mesh, local);
+  count_polygons(polygons, local);
   local.seconds = total.lap();
   if (report) *report = local;
-  return mesh;
+  return done;
 }
 
 }  // namespace anisomesh

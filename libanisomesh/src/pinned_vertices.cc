@@ -18,6 +18,7 @@ using OpenMesh::VertexHandle;
 size_t at(int i) { return static_cast<size_t>(i); }
 
 constexpr double pi = 3.14159265358979323846;
+constexpr int most_parts = 12;           // of a triangle that its corners say enough of
 constexpr double least_weight = 0.01;    // what is pinned stays clear of the sides
 constexpr double sharp_cosine = 0.9;     // of a face to the normal at its vertex
 constexpr double least_agreement = 0.3;  // cosine of a triangle to the surface at its samples
@@ -27,7 +28,7 @@ double cross2(const Vec2d& a, const Vec2d& b) { return a[0] * b[1] - a[1] * b[0]
 }  // namespace
 
 // In the middle of each part that the lines leave of a triangle of the surface whose corners are all on
-// features, the border or other sharp edges.
+// features, the border or other sharp edges, or that is so large that no corner may be near.
 void MeshEmbedding::add_samples(const SurfaceRef& surface, const Overlay& overlay,
                                 const NetworkGraph& network) {
   std::vector<char> on_curve(at(vertices_), 0);
@@ -38,12 +39,14 @@ void MeshEmbedding::add_samples(const SurfaceRef& surface, const Overlay& overla
   for (size_t t = 0; t < overlay.triangles.size(); ++t)
     for (const int n : overlay.triangles[t])
       if (n < vertices_ && (normals_[t] | node_normals_[at(n)]) < sharp_cosine) on_curve[at(n)] = 1;
+  std::vector<int> parts(surface.connectivity().n_faces(), 0);
+  for (const int f : overlay.faces) ++parts[at(f)];
   for (size_t t = 0; t < overlay.triangles.size(); ++t) {
     const FaceHandle face(overlay.faces[t]);
     const auto corners = surface.corners(face);
     bool all = true;
     for (const auto v : corners.vertex) all = all && on_curve[at(v.idx())];
-    if (!all || normals_[t].sqrnorm() == 0) continue;
+    if (!(all || parts[at(face.idx())] > most_parts) || normals_[t].sqrnorm() == 0) continue;
     Sample sample;
     sample.normal = normals_[t];
     sample.position = Vec3d(0, 0, 0);

@@ -11,12 +11,15 @@
 #include "epsilon_search.hh"
 #include "numerics/tensor2d.hh"
 #include "numerics/tensor3d.hh"
+#include "polygon_attempt.hh"
 #include "surface_field.hh"
 
 namespace anisomesh {
 
 namespace {
 
+/// Farther off, polygons need not be sound: their number tells the next epsilon.
+constexpr double kWanted = 0.3;
 /// A target buys most where lines leave wide gaps alone and samples go where the surface is farthest.
 constexpr double kSeedFraction = 0.8, kCellTolerance = 4;
 
@@ -113,7 +116,8 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     options.seed_fraction = std::max(options.stop_fraction, kSeedFraction);
   if (wanted > 0 && polygons.cell_tolerance == 0) polygons.cell_tolerance = kCellTolerance;
   TraceAndMeshReport done;
-  const auto run = [&](double from, double to) {
+  // With `any` count, or only one that is near the target, worth being made sound.
+  const auto run = [&](double from, double to, bool any) {
     const double span = to - from;
     done.trace = trace_lines(surface, options, sub_progress(progress, from, from + 0.5 * span));
     done.isotropic = place_isotropic_samples(surface, options,
@@ -124,7 +128,12 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
       connectivity.property(provide_property(connectivity, property::cell_tolerance)) =
           polygons.cell_tolerance;
     }
-    return build_polygons(surface, polygons, &done.mesh, sub_progress(progress, from + 0.6 * span, to));
+    const auto is_wanted = [&](size_t vertices, size_t faces) {
+      const double count = static_cast<double>(target.target_faces > 0 ? faces : vertices);
+      return any || std::abs(count / wanted - 1) <= kWanted;
+    };
+    return detail::attempt_polygons(surface, polygons, is_wanted, &done.mesh,
+                                    sub_progress(progress, from + 0.6 * span, to));
   };
   const auto finish = [&](OpenMesh::PolyMesh&& result) {
     report_progress(progress, 1);  // the search may have ended early
@@ -132,7 +141,7 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     if (report) *report = done;
     return std::move(result);
   };
-  if (wanted == 0) return finish(run(0, 1));
+  if (wanted == 0) return finish(run(0, 1, true).mesh);
 
   const CrossingModel model(surface, trace.density);
   OpenMesh::PolyMesh last, best;
@@ -141,12 +150,14 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   bool is_last_best = false;
   detail::EpsilonSearch search;
   search.crossings = [&](double epsilon) { return model.count(epsilon); };
-  search.make = [&, made = 0](double epsilon) mutable {
+  search.make = [&, made = 0](double epsilon, bool any) mutable {
     options.density.epsilon_fraction = epsilon;
     is_last_best = false;
     ++made;
-    last = run(1 - std::pow(0.6, made - 1), 1 - std::pow(0.6, made));
-    return target.target_faces > 0 ? last.n_faces() : last.n_vertices();
+    auto attempt = run(1 - std::pow(0.6, made - 1), 1 - std::pow(0.6, made), any);
+    last = std::move(attempt.mesh);
+    return detail::EpsilonSearch::Made{target.target_faces > 0 ? done.mesh.faces : done.mesh.vertices,
+                                       attempt.sound};
   };
   search.keep = [&] {
     best = std::move(last);

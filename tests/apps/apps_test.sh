@@ -284,11 +284,11 @@ features)
   cmp a.om c.om
   anisomesh-estimate -q roof.off -o d.om --feature-angle 40 --json d.json
   [ "$(count d.json)" -eq 14 ] || fail "by angle: $(count d.json)"
-  anisomesh-estimate -q roof.off -o f.om --feature-angle auto --json f.json
+  anisomesh-estimate -q roof.off -o f.om --json f.json
   [ "$(count f.json)" -eq 14 ] || fail "automatic: $(count f.json)"
   ! anisomesh-estimate -q roof.off -o g.om --feature-angle sharp 2>error.txt || fail "sharp is no angle"
   grep -q "neither a number nor auto" error.txt || fail "$(cat error.txt)"
-  anisomesh-estimate -q d.om -o e.om --drop-features --json e.json
+  anisomesh-estimate -q d.om -o e.om --drop-features --feature-angle 0 --json e.json
   [ "$(count e.json)" -eq 0 ] || fail "dropped: $(count e.json)"
   ;;
 

@@ -35,6 +35,10 @@ struct MeshOptions {
   /// follow the directions better and more polygons are quads with 1.5 times chain_tolerance, 2 times
   /// cell_tolerance and 4 times alignment_weight. remesh() sets it where it fits
   bool for_fit = false;
+  /// Features are followed this nearly, whatever epsilon is, fraction of the diagonal; >= 0.
+  /// 0: what the feature stage has recorded, 4e-4 for features that were asked for and no bound for those
+  /// that it found by itself
+  double feature_tolerance = 0;
   bool join_lines = true;        ///< two triangles may become a quad across an edge of a line (max_degree 4)
   double merge_fraction = 0.2;   ///< contract edges shorter than this fraction of those they continue; [0, 1)
   double max_bend_degrees = 60;  ///< split quads that are bent more along a diagonal; (0, 180]

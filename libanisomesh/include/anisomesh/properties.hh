@@ -82,6 +82,12 @@ inline constexpr OnFaces<int> umbilic{"anisomesh:umbilic", "find_umbilics"};
 /// none.
 inline constexpr OnFaces<Vec3d> umbilic_position{"anisomesh:umbilic_position", "find_umbilics"};
 
+// --- written by tag_features()
+// ------------------------------------------------------------------------------------
+/// How near a result is to follow the features at least, whatever epsilon is, fraction of the diagonal; above
+/// epsilon it is no bound.
+inline constexpr OnMesh<double> feature_tolerance{"anisomesh:feature_tolerance", "tag_features"};
+
 // --- written by trace_lines(), see lines.hh for the struct they hold
 // -------------------------------------------------
 /// The epsilon the lines were traced for, in model units.
