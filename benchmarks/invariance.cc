@@ -1,0 +1,84 @@
+// Whether a surface that is scaled, moved, turned or renumbered gives the same result, stage by stage.
+//
+//   invariance FACES NAME[:FEATURE_ANGLE]...
+//
+// NAME is a file of libcgal-demo (with ANISOMESH_DATA=FOLDER, see data.hh) or a shape. A rotation changes the
+// bounding box, and options that are fractions of its diagonal are given accordingly.
+#include <string>
+#include <vector>
+
+#include "anisomesh/balance.hh"
+#include "anisomesh/remesh.hh"
+#include "anisomesh/shapes.hh"
+#include "bench.hh"
+#include "copies.hh"
+
+using namespace anisomesh;
+
+namespace {
+
+struct Job {
+  std::string name;
+  double angle_degrees = 0;
+  size_t faces = 0;
+};
+
+OpenMesh::TriMesh load(const std::string& name) {
+  if (const auto path = demo_mesh(name + ".off")) return read_surface(*path);
+  return make_shape(name, {4000, true});
+}
+
+/// \param box the diagonal of the mesh as it was over that of this one
+void run(const Job& job, const char* what, OpenMesh::TriMesh& mesh, double box) {
+  RemeshOptions options;
+  options.features.angle_degrees = job.angle_degrees;
+  options.target_faces = job.faces;
+  options.fit.enabled = false;
+  options.curvature.radius_fraction *= box;
+  options.smoothing.radius_fraction *= box;
+  options.trace.density.max_spacing_fraction *= box;
+  RemeshReport report;
+  auto result = remesh(mesh, options, &report);
+  const auto rms = [&](OpenMesh::PolyMesh& m) { return 100 * compare(mesh, m).two_sided.rms / box; };
+  const double plain = rms(result);
+  const size_t vertices = result.n_vertices(), faces = result.n_faces();
+  auto fitted = result;
+  fit_vertices(mesh, fitted);
+  balance_vertices(mesh, result);
+  std::printf("| %s | %s | %.6g | %zu + %zu | %zu | %zu | %zu | %zu | %.5f | %.5f | %.5f, %zu |\n",
+              job.name.c_str(), what, report.epsilon_fraction / box, report.trace.min_lines,
+              report.trace.max_lines, report.trace.points,
+              report.isotropic.from_umbilics + report.isotropic.random, vertices, faces, plain, rms(fitted),
+              rms(result), result.n_faces());
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: invariance FACES NAME[:FEATURE_ANGLE]...\n");
+    return 1;
+  }
+  std::printf(
+      "| input | copy | epsilon | lines | points | samples | vertices | faces | rms %% | fitted | balanced, "
+      "faces |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (int i = 2; i < argc; ++i) {
+    Job job;
+    job.name = argv[i];
+    job.faces = std::stoul(argv[1]);
+    if (const auto colon = job.name.find(':'); colon != std::string::npos) {
+      job.angle_degrees = std::stod(job.name.substr(colon + 1));
+      job.name.resize(colon);
+    }
+    const OpenMesh::TriMesh original = load(job.name);
+    auto mesh = original;
+    const double size = SurfaceRef(mesh).diagonal();
+    run(job, "as it is", mesh, 1);
+    for (const auto& change : copies::changes(size)) {
+      auto copy = copies::changed(original, change);
+      run(job, change.name, copy, size * change.scale / SurfaceRef(copy).diagonal());
+    }
+  }
+}

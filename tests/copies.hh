@@ -1,0 +1,66 @@
+// Copies of a surface that are the same surface elsewhere, larger, smaller, turned or numbered otherwise.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "anisomesh/features.hh"
+#include "anisomesh/surface.hh"
+
+namespace copies {
+
+using anisomesh::Vec3d;
+
+struct Change {
+  const char* name;
+  double scale;
+  std::function<Vec3d(const Vec3d&)> apply;
+  bool renumbers;
+};
+
+inline std::vector<Change> changes(double size) {
+  const auto same = [](const Vec3d& p) { return p; };
+  const double far = 1e6 * size;
+  return {
+      {"scaled by 1e-6", 1e-6, [](const Vec3d& p) { return 1e-6 * p; }, false},
+      {"scaled by 1e6", 1e6, [](const Vec3d& p) { return 1e6 * p; }, false},
+      {"moved by 1e6 of its size", 1, [=](const Vec3d& p) { return p + Vec3d(far, -far, far); }, false},
+      {"turned", 1,
+       [](const Vec3d& p) { return Vec3d(0.6 * p[0] - 0.8 * p[1], 0.8 * p[0] + 0.6 * p[1], p[2]); }, false},
+      {"axes swapped", 1, [](const Vec3d& p) { return Vec3d(p[1], p[2], p[0]); }, false},
+      {"renumbered", 1, same, true}};
+}
+
+inline OpenMesh::TriMesh changed(const OpenMesh::TriMesh& mesh, const Change& change) {
+  std::mt19937 generator(7);
+  const auto below = [&](size_t n) { return generator() % n; };
+  const auto shuffle = [&](auto& list) {  // std::shuffle differs from one standard library to the next
+    for (size_t i = list.size(); i > 1; --i) std::swap(list[i - 1], list[below(i)]);
+  };
+  std::vector<int> order(mesh.n_vertices());
+  std::iota(order.begin(), order.end(), 0);
+  if (change.renumbers) shuffle(order);
+  OpenMesh::TriMesh result;
+  result.request_vertex_status();
+  result.request_edge_status();
+  result.request_face_status();
+  std::vector<OpenMesh::VertexHandle> vertex(order.size());
+  for (const int v : order)
+    vertex[static_cast<size_t>(v)] = result.add_vertex(change.apply(mesh.point(OpenMesh::VertexHandle(v))));
+  std::vector<std::vector<OpenMesh::VertexHandle>> faces;
+  for (const auto f : mesh.faces()) {
+    faces.emplace_back();
+    for (const auto v : f.vertices()) faces.back().push_back(vertex[static_cast<size_t>(v.idx())]);
+    if (change.renumbers)
+      std::rotate(faces.back().begin(), faces.back().begin() + static_cast<long>(below(3)),
+                  faces.back().end());
+  }
+  if (change.renumbers) shuffle(faces);
+  for (const auto& corners : faces) result.add_face(corners);
+  return result;
+}
+
+}  // namespace copies
