@@ -105,6 +105,8 @@ class Domain {
   virtual void mark_within(const SurfacePoint& at, double radius, std::vector<char>& marks) const = 0;
   virtual size_t n_faces() const = 0;
   virtual double area(OpenMesh::FaceHandle face) const = 0;
+  /// Distance of its middle from that of the surface.
+  virtual double away(OpenMesh::FaceHandle face) const = 0;
   /// Length of the side opposite a corner.
   virtual double side(OpenMesh::FaceHandle face, int corner) const = 0;
   /// \param reach how far a line or sample at a place needs to be seen, at least

@@ -7,6 +7,7 @@
 
 #include "anisomesh/features.hh"
 #include "anisomesh/properties.hh"
+#include "intrinsic_order.hh"
 
 namespace anisomesh::detail {
 
@@ -71,10 +72,25 @@ void grade(std::vector<std::array<double, 2>>& spacings, size_t kind, const Link
   }
 }
 
+void set_away(const SurfaceRef& surface, std::vector<DomainFace>& faces) {
+  std::vector<Vec3d> middle(faces.size());
+  std::vector<double> area(faces.size());
+  for (const auto f : surface.connectivity().all_faces()) {
+    const auto c = surface.corners(f);
+    const Vec3d &p = surface.point(c.vertex[0]), &q = surface.point(c.vertex[1]),
+                &r = surface.point(c.vertex[2]);
+    middle[static_cast<size_t>(f.idx())] = (p + q + r) / 3;
+    area[static_cast<size_t>(f.idx())] = 0.5 * ((q - p) % (r - p)).norm();
+  }
+  const auto away = distances_from_middle(middle, area);
+  for (size_t f = 0; f < faces.size(); ++f) faces[f].away = away[f];
+}
+
 }  // namespace
 
 void set_across(const SurfaceRef& surface, std::vector<DomainFace>& faces) {
   auto& mesh = surface.connectivity();
+  set_away(surface, faces);
   for (const auto f : mesh.all_faces())
     for (int i = 0; i < 3; ++i) {
       const auto h = opposite_halfedge(mesh, f, i);
@@ -128,9 +144,16 @@ std::vector<UmbilicPoint> read_umbilics(const SurfaceRef& surface,
         {{f, b}, mesh.property(umbilic, f), larger_curvature(b[0] * t[0] + b[1] * t[1] + b[2] * t[2])});
   }
   // The most curved first: in an order that does not depend on how faces are numbered.
-  std::stable_sort(umbilics.begin(), umbilics.end(),
-                   [](const UmbilicPoint& a, const UmbilicPoint& b) { return a.curvature > b.curvature; });
-  return umbilics;
+  std::vector<Measures> measures;
+  for (const UmbilicPoint& u : umbilics) {
+    const auto c = surface.corners(u.point.face);
+    const Vec3d a = surface.point(c.vertex[0]);
+    measures.push_back(
+        {-u.curvature, ((surface.point(c.vertex[1]) - a) % (surface.point(c.vertex[2]) - a)).norm(), 0});
+  }
+  std::vector<UmbilicPoint> ordered;
+  for (const int u : intrinsic_order(measures)) ordered.push_back(umbilics[static_cast<size_t>(u)]);
+  return ordered;
 }
 
 double FaceDomain::spacing(LineKind kind, const SurfacePoint& at) const {

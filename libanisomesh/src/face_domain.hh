@@ -17,9 +17,10 @@ struct DomainFace {
   int across[3] = {0, 0, 0};  ///< a face, kFeature or kBorder
   int beyond[3] = {-1, -1,
                    -1};  ///< where across is kFeature: 3 times the face there plus its corner opposite
+  double away = 0;       ///< distance of its middle from that of the surface
 };
 
-/// Fills in `across` and `beyond`. Reads: edge feature status.
+/// Fills in `across`, `beyond` and `away`. Reads: edge feature status.
 void set_across(const SurfaceRef& surface, std::vector<DomainFace>& faces);
 
 /// The larger |principal curvature|.
@@ -41,6 +42,7 @@ class FaceDomain : public Domain {
   SurfacePoint beyond_feature(const SurfacePoint& at) const final;
   NearUmbilic umbilic_near(LineKind kind, const SurfacePoint& at) const final;
   size_t n_faces() const final { return faces_.size(); }
+  double away(OpenMesh::FaceHandle handle) const final { return face(handle).away; }
   /// The epsilon of the density, model units.
   double epsilon() const { return density_.epsilon(); }
 

@@ -63,7 +63,7 @@ class Placement {
   bool keep(TracedLine line);
   bool is_going_on() const { return going_on_(std::min(1.0, covered_ / sampler_.total_area())); }
   bool looked_at_many();
-  double clearance(const SurfacePoint& at, double bound) const;
+  double clearance(const SurfacePoint& at, double bound, bool umbilic = false) const;
   Seed seed_at(const Candidate& candidate) const;
   Seed continued(const SurfacePoint& beyond) const;
   void push(Candidate candidate);
@@ -90,9 +90,10 @@ Vec2d Placement::line_direction(const SurfacePoint& at) const {
 }
 
 // Distance to the nearest line, or fence that runs like one; 0 on any fence. Infinite beyond the bound.
-double Placement::clearance(const SurfacePoint& at, double bound) const {
+double Placement::clearance(const SurfacePoint& at, double bound, bool umbilic) const {
   const auto near = index_->nearest(at, bound);
   if (near.fence.distance < kOffFence * bound) return 0;
+  if (umbilic) return near.line.distance;  // no direction there, so that no fence runs like it
   const bool parallel = std::abs(near.fence.direction | line_direction(at)) > kParallel;
   return std::min(near.line.distance, parallel ? near.fence.distance : near.line.distance);
 }
@@ -191,15 +192,18 @@ bool Placement::trace_umbilics() {
   for (size_t u = 0; u < umbilics.size(); ++u) {
     const UmbilicPoint& umbilic = umbilics[u];
     const double spacing = domain_.spacing(kind_, umbilic.point);
-    if (clearance(umbilic.point, spacing) < options_.seed_fraction * spacing) continue;
-    std::vector<std::pair<double, Vec2d>> directions;
-    for (const Vec2d& direction : domain_.separatrices(umbilic, kind_))
-      directions.emplace_back(landmark(domain_.tensor_ahead(umbilic.point, 0.5 * spacing * direction)),
-                              direction);
-    std::stable_sort(directions.begin(), directions.end(),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
-    for (const auto& direction : directions)
-      if (!keep(tracer_.trace_from_umbilic(static_cast<int>(u), direction.second, next_id_))) return false;
+    if (clearance(umbilic.point, spacing, true) < options_.seed_fraction * spacing) continue;
+    const auto directions = domain_.separatrices(umbilic, kind_);
+    std::vector<Measures> measures;
+    for (const Vec2d& direction : directions) {
+      const double ahead = landmark(domain_.tensor_ahead(umbilic.point, 0.5 * spacing * direction));
+      measures.push_back(
+          {-ahead, domain_.spacing(kind_, domain_.walk(umbilic.point, 0.5 * spacing * direction).point), 0});
+    }
+    for (const int d : intrinsic_order(measures))
+      if (!keep(
+              tracer_.trace_from_umbilic(static_cast<int>(u), directions[static_cast<size_t>(d)], next_id_)))
+        return false;
   }
   return true;
 }
@@ -209,7 +213,7 @@ std::vector<SurfacePoint> Placement::densest_places() const {
   constexpr size_t kEnough = 200;
   constexpr double kAsDense = 1.1;
   std::vector<SurfacePoint> places;
-  std::vector<std::array<double, 2>> measures;
+  std::vector<Measures> measures;
   double least = std::numeric_limits<double>::infinity();
   for (const bool listing : {false, true})
     for (size_t f = 0; f < domain_.n_faces(); ++f) {
@@ -224,7 +228,8 @@ std::vector<SurfacePoint> Placement::densest_places() const {
         continue;
       }
       places.push_back(centre);
-      measures.push_back({landmark(domain_.tensor(centre)), domain_.area(centre.face)});
+      measures.push_back(
+          {landmark(domain_.tensor(centre)), domain_.area(centre.face), domain_.away(centre.face)});
     }
   std::vector<SurfacePoint> some;
   const auto order = intrinsic_order(measures);
@@ -307,11 +312,12 @@ PlacedLines place_lines(const Domain& domain, LineKind kind, const TraceOptions&
 }
 
 AreaSampler::AreaSampler(const Domain& domain, unsigned seed) : domain_(domain), state_(seed) {
-  std::vector<std::array<double, 2>> measures;
+  std::vector<Measures> measures;
   measures.reserve(domain.n_faces());
   for (size_t f = 0; f < domain.n_faces(); ++f) {
     const OpenMesh::FaceHandle face(static_cast<int>(f));
-    measures.push_back({landmark(domain.tensor({face, {1.0 / 3, 1.0 / 3, 1.0 / 3}})), domain.area(face)});
+    measures.push_back(
+        {landmark(domain.tensor({face, {1.0 / 3, 1.0 / 3, 1.0 / 3}})), domain.area(face), domain.away(face)});
   }
   order_ = intrinsic_order(measures);
   double sum = 0;

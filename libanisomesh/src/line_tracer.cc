@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "face_domain.hh"
+#include "intrinsic_order.hh"
 #include "numerics/integrator.hh"
 
 namespace anisomesh::detail {
@@ -16,6 +18,7 @@ constexpr double kParallel = 0.94;      // cosine: a fence this parallel counts 
 constexpr double kParallelFence = 0.45;  // spacings
 constexpr double kSpeck = 0.02;          // spacings
 constexpr size_t kStepLimit = 50000;
+constexpr double kSeesFence = 2.5;  // spacings
 constexpr double kPullBack = 1e-3;  // of the last segment: what is entered keeps off the fence it ends at
 
 LineKind other(LineKind kind) { return kind == LineKind::min ? LineKind::max : LineKind::min; }
@@ -211,16 +214,28 @@ TracedLine LineTracer::join(Half& forward, Half& backward, int id) {
   return line;
 }
 
+// An eigenvector has no sign: lines run to where the mean curvature is larger, whatever the frame. Where it
+// is the same, as along a cylinder, to where they are less dense, or to where the nearest fence is nearer.
+bool LineTracer::runs_so(const SurfacePoint& seed, const Vec3d& tensor, const Vec2d& direction) const {
+  const double spacing = domain_.spacing(kind_, seed);
+  const Vec2d half = 0.5 * spacing * direction;
+  const auto at = [&](double way) { return domain_.walk(seed, way * half).point; };
+  const auto fence = [&](double way) { return index_.nearest(at(way), kSeesFence * spacing).fence.distance; };
+  const double curvature =
+      landmark(domain_.tensor_ahead(seed, half)) - landmark(domain_.tensor_ahead(seed, -half));
+  if (std::abs(curvature) > kTie * larger_curvature(tensor)) return curvature > 0;
+  const double density = domain_.spacing(kind_, at(1)) - domain_.spacing(kind_, at(-1));
+  if (std::abs(density) > kTie * spacing) return density > 0;
+  return fence(1) <= fence(-1) * (1 + kTie);
+}
+
 TracedLine LineTracer::trace(const SurfacePoint& seed, int id) {
   Half forward, backward;
   TracePoint start;
   start.point = seed;
   const Vec3d tensor = domain_.tensor(seed);
   start.direction = kind_ == LineKind::max ? max_direction(tensor) : min_direction(tensor);
-  // An eigenvector has no sign: lines run to where the mean curvature is larger, whatever the frame.
-  const Vec2d ahead = 0.5 * domain_.spacing(kind_, seed) * start.direction;
-  if (landmark(domain_.tensor_ahead(seed, ahead)) < landmark(domain_.tensor_ahead(seed, -ahead)))
-    start.direction = -start.direction;
+  if (!runs_so(seed, tensor, start.direction)) start.direction = -start.direction;
   forward.points.push_back(start);
   run(forward, id, -1, 0);
   if (forward.reason != LineEnd::loop) {

@@ -56,6 +56,7 @@ class LineTracer {
   };
 
   Vec2d direction(const Vec3d& tensor, const Vec2d& previous) const;
+  bool runs_so(const SurfacePoint& seed, const Vec3d& tensor, const Vec2d& direction) const;
   void run(Half& half, int id, int umbilic, double arc_of_other_half);
   Step step(const TracePoint& from, double wanted) const;
   double longest_step(const TracePoint& from) const;
