@@ -1,9 +1,10 @@
 // Whether a surface that is scaled, moved, turned or renumbered gives the same result, stage by stage.
 //
-//   invariance FACES NAME[:FEATURE_ANGLE]...
+//   invariance FACES|EPSILON NAME[:FEATURE_ANGLE]...
 //
-// NAME is a file of libcgal-demo (with ANISOMESH_DATA=FOLDER, see data.hh) or a shape. A rotation changes the
-// bounding box, and options that are fractions of its diagonal are given accordingly.
+// A number below 1 is the epsilon, as a fraction of the diagonal. NAME is a file of libcgal-demo (with
+// ANISOMESH_DATA=FOLDER, see data.hh) or a shape. A rotation changes the bounding box, and options that are
+// fractions of its diagonal are given accordingly.
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ namespace {
 struct Job {
   std::string name;
   double angle_degrees = 0;
-  size_t faces = 0;
+  size_t faces = 0;    ///< 0: epsilon
+  double epsilon = 0;  ///< of the diagonal
 };
 
 OpenMesh::TriMesh load(const std::string& name) {
@@ -33,6 +35,7 @@ void run(const Job& job, const char* what, OpenMesh::TriMesh& mesh, double box) 
   RemeshOptions options;
   options.features.angle_degrees = job.angle_degrees;
   options.target_faces = job.faces;
+  if (job.faces == 0) options.trace.density.epsilon_fraction = job.epsilon * box;
   options.fit.enabled = false;
   options.curvature.radius_fraction *= box;
   options.smoothing.radius_fraction *= box;
@@ -57,7 +60,7 @@ void run(const Job& job, const char* what, OpenMesh::TriMesh& mesh, double box) 
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::fprintf(stderr, "usage: invariance FACES NAME[:FEATURE_ANGLE]...\n");
+    std::fprintf(stderr, "usage: invariance FACES|EPSILON NAME[:FEATURE_ANGLE]...\n");
     return 1;
   }
   std::printf(
@@ -67,7 +70,8 @@ int main(int argc, char** argv) {
   for (int i = 2; i < argc; ++i) {
     Job job;
     job.name = argv[i];
-    job.faces = std::stoul(argv[1]);
+    job.epsilon = std::stod(argv[1]);
+    if (job.epsilon >= 1) job.faces = static_cast<size_t>(job.epsilon);
     if (const auto colon = job.name.find(':'); colon != std::string::npos) {
       job.angle_degrees = std::stod(job.name.substr(colon + 1));
       job.name.resize(colon);
