@@ -60,11 +60,15 @@ std::string named(const std::string& what, size_t vertices, const std::string& b
 
 /// One input at one number of vertices, all tools. \param smooth one of the surfaces made by code
 void compare_tools(const std::string& name, const OpenMesh::TriMesh& input, const std::string& path,
-                   size_t vertices, bool smooth, const bench::Folder& folder, bench::Bars& bars) {
+                   size_t vertices, bool smooth, bool with_plain, const bench::Folder& folder,
+                   bench::Bars& bars) {
   bench::Ruler ruler(input);
-  Ours plain = remeshed(input, vertices, false), fitted = remeshed(input, vertices, true);
-  const Comparison without = ruler(plain.mesh), c = ruler(fitted.mesh);
-  print_row(name, "no fit", without, bench::format("%.2f", plain.seconds));
+  if (with_plain) {
+    Ours plain = remeshed(input, vertices, false);
+    print_row(name, "no fit", ruler(plain.mesh), bench::format("%.2f", plain.seconds));
+  }
+  Ours fitted = remeshed(input, vertices, true);
+  const Comparison c = ruler(fitted.mesh);
   print_row(name, "**fit**", c,
             bench::format("%.2f", fitted.fit_seconds) + ", " + bench::format("%.2f", fitted.seconds));
   const auto check = [&](bool kept, const std::string& bar) {
@@ -100,7 +104,8 @@ void compare_tools(const std::string& name, const OpenMesh::TriMesh& input, cons
   check(more <= 0.3, "time over that without " + bench::format("%.2f", more) + " (0.30)");
 }
 
-void scans(const std::vector<std::string>& names, const std::vector<size_t>& counts, bench::Bars& bars) {
+void scans(const std::vector<std::string>& names, const std::vector<size_t>& counts, bool with_plain,
+           bench::Bars& bars) {
   const bench::Folder folder;
   print_head();
   for (const auto& name : names) {
@@ -111,7 +116,8 @@ void scans(const std::vector<std::string>& names, const std::vector<size_t>& cou
     }
     const auto mesh = read_surface(*path);
     for (const size_t vertices : counts)
-      if (5 * vertices <= mesh.n_vertices()) compare_tools(name, mesh, *path, vertices, false, folder, bars);
+      if (5 * vertices <= mesh.n_vertices())
+        compare_tools(name, mesh, *path, vertices, false, with_plain, folder, bars);
   }
   std::printf("\n");
 }
@@ -136,7 +142,7 @@ void smooth(bench::Bars& bars) {
     }
     const std::string path = folder / (name + ".off");
     write_mesh(polygons, path);
-    compare_tools(name, mesh, path, 1000, true, folder, bars);
+    compare_tools(name, mesh, path, 1000, true, true, folder, bars);
   }
   std::printf("\n");
 }
@@ -262,9 +268,11 @@ int main(int argc, char** argv) {
                                  "armadillo",       "refined_elephant", "bull",    "man"};
   std::vector<size_t> counts{1000, 2000, 4000};
   std::string only, plot_path;
+  bool with_plain = true;
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::strcmp(argv[i], "--scans") == 0) names = split(argv[i + 1]);
     if (std::strcmp(argv[i], "--only") == 0) only = argv[i + 1];
+    if (std::strcmp(argv[i], "--plain") == 0) with_plain = std::strcmp(argv[i + 1], "no") != 0;
     if (std::strcmp(argv[i], "--plot") == 0) plot_path = argv[i + 1];
     if (std::strcmp(argv[i], "--vertices") == 0) {
       counts.clear();
@@ -273,7 +281,7 @@ int main(int argc, char** argv) {
   }
   bench::Bars bars;
   try {
-    if (only.empty() || only == "scans") scans(names, counts, bars);
+    if (only.empty() || only == "scans") scans(names, counts, with_plain, bars);
     if (only.empty() || only == "smooth") smooth(bars);
     if (only.empty() || only == "convergence") {
       const auto curves = convergence();

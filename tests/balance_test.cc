@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "anisomesh/compare.hh"
@@ -205,6 +206,38 @@ TEST_CASE("no number of threads changes a bit of the balance, and a cancel leave
   BalanceOptions wrong;
   wrong.rounds = -1;
   CHECK_THROWS_AS(balance_vertices(mesh, result, wrong), InvalidOption);
+}
+
+TEST_CASE("the last splits of quads bring normals nearer, leave every vertex and distance, and enough quads",
+          "[balance]") {
+  auto mesh = shape("octa-flower", 3000);
+  const PolyMesh start = remeshed(mesh, 200);
+  BalanceOptions none, some;
+  none.split_gain = std::numeric_limits<double>::infinity();
+  some.split_gain = 0;
+  PolyMesh whole = start, split = start;
+  const BalanceReport without = balance_vertices(mesh, whole, none);
+  const double quads = compare(mesh, whole).quad_fraction;
+  some.least_quads = 0.5 * quads;
+  const BalanceReport report = balance_vertices(mesh, split, some);
+  CHECK(without.split == 0);
+  REQUIRE(report.split > 5);
+  CHECK(points_of(split) == points_of(whole));
+  CHECK(split.n_faces() == whole.n_faces() + report.split);
+  CHECK(split.n_edges() == whole.n_edges() + report.split);
+  const Comparison before = compare(mesh, whole), after = compare(mesh, split);
+  CHECK(after.mean_normal_deviation_degrees < 0.98 * before.mean_normal_deviation_degrees);
+  CHECK(after.two_sided.rms == Approx(before.two_sided.rms).epsilon(0.02));
+  CHECK(after.quad_fraction >= 0.5 * quads);
+  check_sound(after);
+  for (const double wrong : {-1.0, std::nan("")}) {
+    BalanceOptions options;
+    options.split_gain = wrong;
+    CHECK_THROWS_AS(balance_vertices(mesh, split, options), InvalidOption);
+    options.split_gain = 0;
+    options.least_quads = wrong;
+    CHECK_THROWS_AS(balance_vertices(mesh, split, options), InvalidOption);
+  }
 }
 
 TEST_CASE("balanced scans have less error than decimation by quadrics reaches", "[balance]") {

@@ -134,6 +134,7 @@ Json to_json(const BalanceReport& r) {
           {"rms_after", r.fit.rms_after},
           {"passes", r.fit.passes},
           {"parted", r.parted},
+          {"split", r.split},
           {"removed", r.removed},
           {"added", r.added},
           {"seconds", r.seconds}};

@@ -6,6 +6,7 @@
 
 #include "anisomesh/errors.hh"
 #include "patch_moves.hh"
+#include "quad_splits.hh"
 
 namespace anisomesh {
 
@@ -48,6 +49,8 @@ void BalanceOptions::validate() const {
     throw InvalidOption("balance.rounds must not be negative, but is " + std::to_string(rounds));
   if (!(triangle_cost >= 0)) throw InvalidOption("balance.triangle_cost must not be negative");
   if (!(alignment_cost >= 0)) throw InvalidOption("balance.alignment_cost must not be negative");
+  if (!(split_gain >= 0)) throw InvalidOption("balance.split_gain must not be negative");
+  if (!(least_quads >= 0 && least_quads <= 1)) throw InvalidOption("balance.least_quads must be in [0, 1]");
 }
 
 BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& result,
@@ -89,11 +92,17 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     work = mesh.mesh();
   }
   report_progress(progress, options.rounds / (options.rounds + 1.0));
-  report.fit.rms_after = rms(fit(fit_options.passes).energy());
+  const detail::FitState last = fit(fit_options.passes);
+  report.fit.rms_after = rms(last.energy());
   report_progress(progress, 1);
   // A given number of vertices may have cost more than the moves have gained.
   const bool worse = change && options.target_vertices == 0 && report.fit.rms_after > rms_fitted;
   if (worse) report.fit.rms_after = rms_fitted;
+  if (change && !worse) {
+    PatchMesh mesh(work);
+    report.split = split_bent_quads(last, input, options.split_gain, options.least_quads, mesh);
+    if (report.split > 0) work = mesh.mesh();
+  }
   result = worse ? std::move(fitted) : std::move(work);
   report.fit.seconds = report.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

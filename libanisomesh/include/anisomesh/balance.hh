@@ -18,14 +18,19 @@ struct BalanceOptions {
   /// What a side of mean length costs that lies diagonally to the principal directions, in the same unit; >=
   /// 0
   double alignment_cost = 1.5;
-  int max_degree = 4;     ///< 3: makes no quads; other than 3 and 4: no polygon is changed
-  void validate() const;  ///< \throw InvalidOption
+  /// At last quads are split whose two triangles' normals are nearer to the input's, by so many times what a
+  /// polygon is off on the mean; 0: all that gain, infinite: none; >= 0
+  double split_gain = 0.7;
+  double least_quads = 0.76;  ///< ... as long as this share of the polygons is quads; [0, 1]
+  int max_degree = 4;         ///< 3: makes no quads; other than 3 and 4: no polygon is changed
+  void validate() const;      ///< \throw InvalidOption
 };
 
 struct BalanceReport {
   FitReport fit;                  ///< of all rounds
   size_t parted = 0;              ///< groups of polygons partitioned anew
   size_t removed = 0, added = 0;  ///< vertices
+  size_t split = 0;               ///< quads, at last
   double seconds = 0;
 };
 
