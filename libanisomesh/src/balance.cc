@@ -16,7 +16,7 @@ using detail::PatchChanges;
 using detail::PatchMesh;
 using detail::PatchMove;
 
-constexpr int passes_before = 2, passes_between = 1;
+constexpr int passes_before = 3, passes_between = 1;
 constexpr double sure = 1.2;  // an exchange must gain this many times what it costs
 
 /// Takes removals and additions in turn, as long as that pays, or the number of vertices is not what it is to

@@ -61,6 +61,16 @@ double energy_of(const std::vector<FitPair>& pairs) {
   return sum;
 }
 
+/// As if all distances were the mean one: a few places that are far away do not count for all others.
+double typical_energy(const std::vector<FitPair>& pairs) {
+  double sum = 0, weights = 0;
+  for (const FitPair& pair : pairs) {
+    sum += pair.weight * pair.distance;
+    weights += pair.weight;
+  }
+  return weights > 0 ? sum * sum / weights : 0;
+}
+
 }  // namespace
 
 FitState::FitState(const SurfaceRef& surface, const FitInput& input, const OpenMesh::PolyMesh& result,
@@ -117,7 +127,7 @@ int FitState::improve_often(int passes, size_t* held, const Progress& progress) 
 
 std::vector<Vec3d> FitState::solve() const {
   FitSystem system(free_, 6 * triangles_.corner.size() + 16 * mesh_.sides.size());
-  add_surface_terms(mesh_, triangles_, input_, pairs_, points_, options_, energy_, system);
+  add_surface_terms(mesh_, triangles_, input_, pairs_, points_, options_, typical_energy(pairs_), system);
   double area = 0;
   for (const double a : triangles_.area) area += a;
   if (area > 0) {

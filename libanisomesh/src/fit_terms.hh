@@ -11,6 +11,7 @@ namespace anisomesh::detail {
 
 /// The squared distances of the pairs, the heights of the triangles' sides against the input's normals, and
 /// the turn of the polygons' sides away from the principal directions.
+/// \param energy squared distances, both ways, that the turn is weighed against
 void add_surface_terms(const FitMesh& mesh, const FitTriangles& triangles, const FitInput& input,
                        const std::vector<FitPair>& pairs, const std::vector<Vec3d>& points,
                        const FitOptions& options, double energy, FitSystem& system);

@@ -15,9 +15,9 @@ struct FitOptions {
   /// squared distance; >= 0
   double normal_weight = 0.01;
   double planarity_weight = 0.01;  ///< of the squared height of a quad's corners over their plane; >= 0
-  /// Of the squared sine of the angle from a side to the nearer principal direction, relative to the mean
-  /// squared distance there is; >= 0
-  double alignment_weight = 10;
+  /// Of the squared sine of the angle from a side to the nearer principal direction, relative to the
+  /// square of the mean distance there is; >= 0
+  double alignment_weight = 22;
   double damping = 0.02;  ///< of the squared step, which is what holds vertices of flat places; > 0
   void validate() const;  ///< \throw InvalidOption
 };
