@@ -221,6 +221,35 @@ TEST_CASE("real surfaces of every topology keep it") {
   }
 }
 
+TEST_CASE("parts keep their edges unasked, at the count that is wanted, and do not cross themselves") {
+  struct Part {
+    const char* name;
+    size_t faces;
+    double rms, hausdorff;  // fraction of the diagonal
+  };
+  // a wall without vertices between its rings, the teeth of a gear, rims and cones
+  const std::vector<Part> parts{{"rotor_small.off", 2000, 0.0003, 0.004},
+                                {"pinion.off", 650, 0.0006, 0.006},
+                                {"oblong.off", 420, 0.0004, 0.006}};
+  for (const Part& part : parts) {
+    const auto path = demo_mesh(part.name);
+    if (!path) return skip(part.name);
+    INFO(part.name);
+    auto mesh = read_surface(*path);
+    RemeshOptions options;
+    options.target_faces = part.faces;
+    RemeshReport report;
+    auto result = remesh(mesh, options, &report);
+    CHECK(report.features.automatic);
+    CHECK(report.target_met);
+    const auto c = compared(mesh, result);
+    CHECK(c.two_sided.rms < part.rms);
+    CHECK(c.two_sided.hausdorff < part.hausdorff);
+    CHECK(c.folded_faces == 0);
+    CHECK(c.self_intersecting_faces == 0);
+  }
+}
+
 TEST_CASE("a hole whose wall has no vertices but those of its rims is not bridged") {
   auto mesh = plate_with_hole(32);
   RemeshOptions options;

@@ -45,10 +45,9 @@ const Trial& nearest_of(const std::vector<Trial>& trials) {
   });
 }
 
-/// Where to look next: the model scaled to the nearest attempt, or the secant through the two that enclose
-/// the target, kept inside what is known.
+/// Where to look next: the secant through the two attempts that enclose the target, kept inside what is
+/// known, or the model scaled to one attempt.
 double next_epsilon(const std::vector<Trial>& attempts, const std::function<double(double)>& crossings) {
-  const Trial& nearest = nearest_of(attempts);
   const Trial *above = nullptr, *below = nullptr;  // the tightest attempts with too many and too few
   for (const Trial& a : attempts) {
     if (a.log_ratio > 0 && (!above || a.log_epsilon > above->log_epsilon)) above = &a;
@@ -58,10 +57,12 @@ double next_epsilon(const std::vector<Trial>& attempts, const std::function<doub
     const double t = std::clamp(above->log_ratio / (above->log_ratio - below->log_ratio), 0.1, 0.9);
     return std::exp(above->log_epsilon + t * (below->log_epsilon - above->log_epsilon));
   }
-  const double count_there = crossings(std::exp(nearest.log_epsilon));
+  // Beyond the last one that has too many, or before the first that has too few, however near another comes.
+  const Trial& from = above && below ? nearest_of(attempts) : above ? *above : *below;
+  const double count_there = crossings(std::exp(from.log_epsilon));
   // Past the first attempts the model has shown to be wrong in the slope too: step further each time.
   const double push = 1 + 0.25 * static_cast<double>(attempts.size() - 1);
-  return epsilon_of(count_there * std::exp(-push * nearest.log_ratio), crossings);
+  return epsilon_of(count_there * std::exp(-push * from.log_ratio), crossings);
 }
 
 /// Whether the last step to a larger epsilon brought next to nothing, though there are still too many. Where
@@ -142,9 +143,9 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
     found.tried.push_back({epsilon, made.count});
     trials.push_back(trial_of(epsilon, made.count, wanted));
     const double off = trials.back().off();
-    const bool stalled = is_stalled(trials);
+    const bool stalled = is_stalled(trials), first = !std::isfinite(best_off);
     const bool met = off <= options.tolerance || (found.attempts >= 3 && off <= kMet);
-    if (made.has_result && (met || (off < best_off && !stalled))) {
+    if (made.has_result && (met || first || (off < best_off && !stalled))) {
       best_off = off;
       search.keep();
     }

@@ -14,6 +14,7 @@
 #include "polygon_output.hh"
 #include "polygons.hh"
 #include "soundness.hh"
+#include "upright_quads.hh"
 
 namespace anisomesh {
 
@@ -187,6 +188,7 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
 
     auto set = detail::extract_polygons(network, std::move(cells), surface, normals, judge, region_options);
     if (options.max_degree == 4) detail::pair_triangles(set.polygons, network, judge, options.join_lines);
+    if (options.max_degree > 0) detail::split_upright_quads(set.polygons, network);
     local.added_samples = set.added_samples;
     local.dropped_samples = set.dropped_samples;
     local.convexity_splits = set.convexity_splits;
