@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "anisomesh/features.hh"
+
 namespace bench {
 
 /// Says which options there are, then reads them. An option that is not known is taken for a name.
@@ -21,6 +23,14 @@ class Arguments {
   }
   void number(const std::string& option, double& target) {
     value(option, [&target](const std::string& text) { target = std::stod(text); });
+  }
+
+  /// An angle in degrees, 0: none; where it is not given, features are found.
+  void features(const std::string& option, anisomesh::FeatureOptions& target) {
+    value(option, [&target](const std::string& text) {
+      target.angle_degrees = std::stod(text);
+      target.automatic = false;
+    });
   }
 
   /// \returns what is no option and no option's value

@@ -28,7 +28,7 @@ namespace {
 
 struct Settings {
   size_t target = 4000;
-  double feature_angle = 0;
+  FeatureOptions features;
   bool seams = false;
 };
 
@@ -124,7 +124,7 @@ OpenMesh::PolyMesh remeshed(OpenMesh::TriMesh& mesh, Domain domain, const Settin
                             RemeshReport& report) {
   RemeshOptions options;
   options.domain = domain;
-  options.features.angle_degrees = settings.feature_angle;
+  options.features = settings.features;
   options.target_faces = std::min(settings.target, mesh.n_faces() / 2);
   return remesh(mesh, options, &report);
 }
@@ -193,7 +193,7 @@ int main(int argc, char** argv) {
   Settings settings;
   bench::Arguments arguments;
   arguments.number("--target", settings.target);
-  arguments.number("--feature-angle", settings.feature_angle);
+  arguments.features("--feature-angle", settings.features);
   arguments.flag("--seams", settings.seams);
   auto names = arguments.read(argc, argv);
   if (names.empty()) names = ten_meshes();

@@ -34,6 +34,7 @@ OpenMesh::TriMesh load(const std::string& name) {
 void run(const Job& job, const char* what, OpenMesh::TriMesh& mesh, double box) {
   RemeshOptions options;
   options.features.angle_degrees = job.angle_degrees;
+  options.features.automatic = false;
   options.target_faces = job.faces;
   if (job.faces == 0) options.trace.density.epsilon_fraction = job.epsilon * box;
   options.fit.enabled = false;

@@ -23,15 +23,14 @@ using namespace anisomesh;
 namespace {
 
 struct Settings {
-  double epsilon = 0.001, feature_angle = 0;
+  double epsilon = 0.001;
+  FeatureOptions features;
   bool plane = false;
 };
 
 void print_row(const std::string& path, const Settings& settings) {
   auto mesh = read_surface(path);
-  FeatureOptions features;
-  features.angle_degrees = settings.feature_angle;
-  const auto tagged = tag_features(mesh, features);
+  const auto tagged = tag_features(mesh, settings.features);
   const auto curvature = estimate_curvature(mesh);
   double flat_seconds = 0;
   if (settings.plane) flat_seconds = flatten(mesh).seconds;
@@ -63,7 +62,7 @@ int main(int argc, char* argv[]) {
   bench::Arguments arguments;
   arguments.flag("--plane", settings.plane);
   arguments.number("--epsilon", settings.epsilon);
-  arguments.number("--feature-angle", settings.feature_angle);
+  arguments.features("--feature-angle", settings.features);
   const auto paths = arguments.read(argc, argv);
   std::printf(
       "| mesh | triangles | features | index sum | turning | Euler | wedges + trisectors | min + max lines | "
