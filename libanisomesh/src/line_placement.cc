@@ -243,14 +243,17 @@ std::vector<SurfacePoint> Placement::densest_places() const {
 bool Placement::trace_extreme() {
   constexpr double kStep = 0.01;  // spacings
   const SurfacePoint* best = nullptr;
-  double least = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity(), least_off = least;
   const auto places = densest_places();
   for (const SurfacePoint& place : places) {
     const double spacing = domain_.spacing(kind_, place);
+    if (spacing > (1 + kTie) * least) continue;
+    if (!std::isinf(index_->nearest(place, 0.5 * spacing).fence.distance)) continue;  // half is cut off
     const double away = std::min(clearance(place, 1.5 * spacing) / spacing, 1.5);
     const double off = std::round(std::abs(away - options_.seed_fraction) / kStep);
-    if (off >= least || !std::isinf(index_->nearest(place, 0.5 * spacing).fence.distance)) continue;
-    least = off;
+    if (spacing >= (1 - kTie) * least && off >= least_off) continue;
+    least = spacing;
+    least_off = off;
     best = &place;
   }
   return !best || keep(tracer_.trace(*best, next_id_));
