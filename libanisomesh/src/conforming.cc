@@ -241,7 +241,6 @@ std::vector<Piece> partition_region(const RegionCorners& region, const PolygonJu
         }
       return result;
     }
-    if (large) return join_triangles(region, cut_ears(region), judge, options);
   }
   std::vector<Piece> pieces = Partition(region, judge, options.max_degree != 3).run();
   if (pieces.empty()) pieces = cut_ears(region);

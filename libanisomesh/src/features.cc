@@ -7,6 +7,7 @@
 
 #include "anisomesh/errors.hh"
 #include "anisomesh/properties.hh"
+#include "feature_tolerance.hh"
 
 namespace anisomesh {
 
@@ -19,8 +20,6 @@ using OpenMesh::TriConnectivity;
 using OpenMesh::VertexHandle;
 
 constexpr double sharp_degrees = 40, corner_degrees = 45;
-constexpr double followed = 4e-4;  // features that were asked for, of the diagonal
-constexpr double unbounded = 1;
 constexpr double needle = 0.01;  // twice the area over the squared longest side: no thinner
 constexpr int needle_steps = 8;  // from needle to needle
 constexpr double pi = 3.14159265358979323846;
@@ -34,6 +33,11 @@ Vec3d area_vector(const SurfaceRef& surface, FaceHandle face) {
 /// The angle between two vectors in degrees; 0 where one of them vanishes, so that a face without area makes
 /// no feature.
 double angle_between(const Vec3d& a, const Vec3d& b) { return std::atan2((a % b).norm(), a | b) * 180 / pi; }
+
+/// Whether a curve whose two edges leave a vertex so turns there by more than an angle.
+bool turns_by_more(const Vec3d& leaving, const Vec3d& other, double degrees) {
+  return 180 - angle_between(leaving, other) > degrees;
+}
 
 /// The halfedge of a face that is its longest side.
 HalfedgeHandle longest_side(const SurfaceRef& surface, FaceHandle face) {
@@ -119,8 +123,7 @@ class SkeletonBuilder {
       // Border and crease are different curves even where one runs smoothly into the other.
       const bool corner =
           leaving.size() != 2 || border(leaving[0]) != border(leaving[1]) ||
-          180 - angle_between(direction(surface, leaving[0]), direction(surface, leaving[1])) >
-              corner_angle_degrees;
+          turns_by_more(direction(surface, leaving[0]), direction(surface, leaving[1]), corner_angle_degrees);
       if (!corner) continue;
       is_corner_[static_cast<size_t>(v.idx())] = 1;
       skeleton_.corners.push_back(v);
@@ -200,8 +203,8 @@ std::vector<double> measure_turns(const SurfaceRef& surface, FeatureReport& repo
   }
   report.vertices = mesh.n_vertices();
   for (const auto& leaving : sharp)
-    report.corners += !leaving.empty() &&
-                      (leaving.size() != 2 || 180 - angle_between(leaving[0], leaving[1]) > corner_degrees);
+    report.corners +=
+        !leaving.empty() && (leaving.size() != 2 || turns_by_more(leaving[0], leaving[1], corner_degrees));
   return turns;
 }
 
@@ -236,7 +239,7 @@ FeatureReport tag_features(const SurfaceRef& surface, const FeatureOptions& opti
   // Tags that the mesh brings along keep what was recorded of them.
   if (report.automatic || report.by_angle + report.by_list > 0)
     mesh.property(provide_property(mesh, property::feature_tolerance)) =
-        report.automatic ? unbounded : followed;
+        report.automatic ? detail::found_feature_tolerance : detail::asked_feature_tolerance;
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }

@@ -215,22 +215,23 @@ std::vector<SurfacePoint> Placement::densest_places() const {
   std::vector<SurfacePoint> places;
   std::vector<Measures> measures;
   double least = std::numeric_limits<double>::infinity();
-  for (const bool listing : {false, true})
-    for (size_t f = 0; f < domain_.n_faces(); ++f) {
-      const SurfacePoint centre{OpenMesh::FaceHandle(static_cast<int>(f)), {1.0 / 3, 1.0 / 3, 1.0 / 3}};
-      const double spacing = domain_.spacing(kind_, centre);
-      if (spacing >= kAsDense * least || domain_.isotropic(centre)) continue;
-      if (!listing && spacing >= least) continue;
-      // No good start: half of it is cut off.
-      if (!listing && !std::isinf(index_->nearest(centre, 0.5 * spacing).fence.distance)) continue;
-      if (!listing) {
-        least = spacing;
-        continue;
-      }
-      places.push_back(centre);
-      measures.push_back(
-          {landmark(domain_.tensor(centre)), domain_.area(centre.face), domain_.away(centre.face)});
-    }
+  const auto centre_of = [](size_t f) {
+    return SurfacePoint{OpenMesh::FaceHandle(static_cast<int>(f)), {1.0 / 3, 1.0 / 3, 1.0 / 3}};
+  };
+  for (size_t f = 0; f < domain_.n_faces(); ++f) {
+    const SurfacePoint centre = centre_of(f);
+    const double spacing = domain_.spacing(kind_, centre);
+    if (spacing >= least || domain_.isotropic(centre)) continue;
+    // Beside a fence there is no good start: half of it is cut off.
+    if (std::isinf(index_->nearest(centre, 0.5 * spacing).fence.distance)) least = spacing;
+  }
+  for (size_t f = 0; f < domain_.n_faces(); ++f) {
+    const SurfacePoint centre = centre_of(f);
+    if (domain_.spacing(kind_, centre) >= kAsDense * least || domain_.isotropic(centre)) continue;
+    places.push_back(centre);
+    measures.push_back(
+        {landmark(domain_.tensor(centre)), domain_.area(centre.face), domain_.away(centre.face)});
+  }
   std::vector<SurfacePoint> some;
   const auto order = intrinsic_order(measures);
   for (size_t i = 0; i < order.size(); i += 1 + order.size() / kEnough)

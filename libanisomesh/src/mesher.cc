@@ -9,6 +9,7 @@
 #include "anisomesh/errors.hh"
 #include "anisomesh/properties.hh"
 #include "drawing.hh"
+#include "feature_tolerance.hh"
 #include "joining.hh"
 #include "polygon_attempt.hh"
 #include "polygon_output.hh"
@@ -37,9 +38,10 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-double epsilon_of(const OpenMesh::TriConnectivity& mesh) {
-  if (!has_property(mesh, property::epsilon)) return std::numeric_limits<double>::infinity();
-  return mesh.property(require_property(mesh, property::epsilon));
+/// What an earlier stage has left on the mesh.
+double recorded(const OpenMesh::TriConnectivity& mesh, const property::OnMesh<double>& declaration,
+                double otherwise) {
+  return has_property(mesh, declaration) ? mesh.property(require_property(mesh, declaration)) : otherwise;
 }
 
 /// What MeshOptions::for_fit multiplies.
@@ -47,10 +49,7 @@ constexpr double fitted_chains = 1.5, fitted_cells = 2, fitted_alignment = 4;
 
 /// Leaves no option to be found elsewhere.
 MeshOptions resolved(MeshOptions options, const OpenMesh::TriConnectivity& mesh) {
-  if (options.cell_tolerance == 0)
-    options.cell_tolerance = has_property(mesh, property::cell_tolerance)
-                                 ? mesh.property(require_property(mesh, property::cell_tolerance))
-                                 : 2;
+  if (options.cell_tolerance == 0) options.cell_tolerance = recorded(mesh, property::cell_tolerance, 2);
   if (options.for_fit) {
     options.chain_tolerance *= fitted_chains;
     options.cell_tolerance *= fitted_cells;
@@ -58,9 +57,7 @@ MeshOptions resolved(MeshOptions options, const OpenMesh::TriConnectivity& mesh)
     options.for_fit = false;
   }
   if (options.feature_tolerance == 0)
-    options.feature_tolerance = has_property(mesh, property::feature_tolerance)
-                                    ? mesh.property(require_property(mesh, property::feature_tolerance))
-                                    : 4e-4;
+    options.feature_tolerance = recorded(mesh, property::feature_tolerance, detail::asked_feature_tolerance);
   return options;
 }
 
@@ -148,7 +145,8 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
   Stopwatch total, stopwatch;
   report_progress(progress, 0);
   const LineNetwork lines = read_lines(surface);
-  const double epsilon = epsilon_of(surface.connectivity());
+  const double epsilon =
+      recorded(surface.connectivity(), property::epsilon, std::numeric_limits<double>::infinity());
 
   const detail::SurfaceNormals normals(surface);
   const auto drawing =

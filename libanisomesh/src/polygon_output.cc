@@ -5,6 +5,7 @@
 #include "anisomesh/errors.hh"
 #include "anisomesh/mesher.hh"
 #include "anisomesh/properties.hh"
+#include "numerics/shorter_diagonal.hh"
 
 namespace anisomesh::detail {
 
@@ -34,9 +35,6 @@ class Output {
 
  private:
   OpenMesh::VertexHandle vertex_of(int node);
-  double diagonal(const std::vector<int>& quad, size_t corner) const {
-    return (network_.positions[at(quad[corner])] - network_.positions[at(quad[corner + 2])]).sqrnorm();
-  }
 
   const NetworkGraph& network_;
   OpenMesh::PolyMesh& mesh_;
@@ -65,7 +63,7 @@ void Output::add(const std::vector<std::vector<int>>& polygons) {
   for (const auto& polygon : polygons) {
     corners.clear();
     // A viewer that draws a fan from the first corner then uses the shorter diagonal.
-    const size_t first = polygon.size() == 4 && diagonal(polygon, 1) < diagonal(polygon, 0) ? 1 : 0;
+    const size_t first = polygon.size() == 4 ? shorter_diagonal(polygon, network_.positions) : 0;
     for (size_t i = 0; i < polygon.size(); ++i)
       corners.push_back(vertices_[at(polygon[(first + i) % polygon.size()])]);
     if (!mesh_.add_face(corners).is_valid())

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "numerics/bvh.hh"
+#include "numerics/shorter_diagonal.hh"
 #include "numerics/small_triangulation.hh"
 
 namespace anisomesh::detail {
@@ -89,10 +90,7 @@ double RegionMesher::distance(const Probe& probe, const std::vector<std::array<i
 std::vector<std::array<int, 3>> RegionMesher::as_drawn(const std::vector<Piece>& pieces) const {
   std::vector<std::array<int, 3>> triangles;
   for (const Piece& p : pieces) {
-    size_t first = 0;
-    if (p.size() == 4 && (corners_.position[at(p[1])] - corners_.position[at(p[3])]).sqrnorm() <
-                             (corners_.position[at(p[0])] - corners_.position[at(p[2])]).sqrnorm())
-      first = 1;
+    const size_t first = p.size() == 4 ? shorter_diagonal(p, corners_.position) : 0;
     for (size_t i = 1; i + 1 < p.size(); ++i)
       triangles.push_back({p[first], p[(first + i) % p.size()], p[(first + i + 1) % p.size()]});
   }

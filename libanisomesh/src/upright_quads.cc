@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "numerics/shorter_diagonal.hh"
 #include "polygon_adjacency.hh"
 
 namespace anisomesh::detail {
@@ -32,10 +33,6 @@ bool is_upright(const std::vector<int>& quad, size_t corner, const NetworkGraph&
          (stands(second) && on_curve(node(2), node(3), node(0), network.graph));
 }
 
-double squared_diagonal(const std::vector<int>& quad, size_t corner, const NetworkGraph& network) {
-  return (network.positions[at(quad[corner + 2])] - network.positions[at(quad[corner])]).sqrnorm();
-}
-
 }  // namespace
 
 size_t split_upright_quads(std::vector<std::vector<int>>& polygons, const NetworkGraph& network) {
@@ -46,7 +43,7 @@ size_t split_upright_quads(std::vector<std::vector<int>>& polygons, const Networ
   for (size_t i = 0; i < polygons.size(); ++i) {
     const auto& quad = polygons[i];
     if (quad.size() != 4) continue;
-    const size_t shorter = squared_diagonal(quad, 1, network) < squared_diagonal(quad, 0, network) ? 1 : 0;
+    const size_t shorter = shorter_diagonal(quad, network.positions);
     if (is_upright(quad, shorter, network) && !is_upright(quad, 1 - shorter, network))
       splits.push_back({i, 1 - shorter});
   }
