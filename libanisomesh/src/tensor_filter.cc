@@ -69,30 +69,39 @@ std::vector<Measures> measures_of(const FilterSamples& samples) {
   return measures;
 }
 
-Groups group_samples(const FilterSamples& samples) {
-  const size_t n = samples.place.size();
-  Groups groups;
-  groups.group_of.assign(n, -1);
+/// The samples of each group, its first one in front. Groups start in an order that follows the shape, and are
+/// numbered as the mesh is: what lies close together on the surface then lies close together in memory, which
+/// is most of the time of a pass over a large scan.
+std::vector<std::vector<int>> members_of_groups(const FilterSamples& samples) {
   std::vector<std::vector<int>> members;
+  std::vector<char> taken(samples.place.size(), 0);
   for (const int started : intrinsic_order(measures_of(samples))) {
     const auto first = static_cast<size_t>(started);
-    if (groups.group_of[first] >= 0) continue;
-    const int group = static_cast<int>(members.size());
+    if (taken[first]) continue;
     const double reach = group_radius * samples.radius[first];
-    groups.group_of[first] = group;
+    taken[first] = 1;
     members.push_back({started});
     for (size_t i = 0; i < members.back().size(); ++i) {
       const auto s = static_cast<size_t>(members.back()[i]);
       for (int k = samples.neighbours.offset[s]; k < samples.neighbours.offset[s + 1]; ++k) {
         const auto other = static_cast<size_t>(samples.neighbours.node[static_cast<size_t>(k)]);
-        if (groups.group_of[other] >= 0 || !((samples.place[other] - samples.place[first]).norm() < reach))
-          continue;
-        groups.group_of[other] = group;
+        if (taken[other] || !((samples.place[other] - samples.place[first]).norm() < reach)) continue;
+        taken[other] = 1;
         members.back().push_back(static_cast<int>(other));
       }
     }
   }
+  std::sort(members.begin(), members.end(),
+            [](const auto& a, const auto& b) { return a.front() < b.front(); });
+  return members;
+}
+
+Groups group_samples(const FilterSamples& samples) {
+  Groups groups;
+  groups.group_of.assign(samples.place.size(), -1);
+  const auto members = members_of_groups(samples);
   for (const auto& group : members) {
+    for (const int s : group) groups.group_of[static_cast<size_t>(s)] = static_cast<int>(groups.size());
     Vec3d place(0, 0, 0), normal(0, 0, 0);
     double area = 0;
     for (const int s : group) {
