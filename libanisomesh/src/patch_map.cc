@@ -1,5 +1,7 @@
 #include "patch_map.hh"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -86,13 +88,12 @@ std::optional<std::vector<Vec2d>> free_map(const Patch& patch, FlattenReport& re
 }
 
 std::vector<TriangleJacobian> jacobians(const Patch& patch, const std::vector<Vec2d>& map) {
-  std::vector<TriangleJacobian> result;
-  result.reserve(patch.triangles.size());
-  for (const auto& t : patch.triangles) {
+  std::vector<TriangleJacobian> result(patch.triangles.size());
+  tbb::parallel_for(size_t{0}, result.size(), [&](size_t f) {
+    const auto& t = patch.triangles[f];
     const auto a = static_cast<size_t>(t[0]), b = static_cast<size_t>(t[1]), c = static_cast<size_t>(t[2]);
-    result.push_back(
-        triangle_jacobian(patch.points[a], patch.points[b], patch.points[c], map[a], map[b], map[c]));
-  }
+    result[f] = triangle_jacobian(patch.points[a], patch.points[b], patch.points[c], map[a], map[b], map[c]);
+  });
   return result;
 }
 

@@ -1,5 +1,7 @@
 #include "numerics/patch.hh"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -44,15 +46,15 @@ TriangleShape shape_of(std::array<double, 3> opposite) {
 }  // namespace
 
 std::vector<TriangleShape> triangle_shapes(const Patch& patch, double thickness) {
-  std::vector<TriangleShape> shapes;
-  shapes.reserve(patch.triangles.size());
+  std::vector<TriangleShape> shapes(patch.triangles.size());
   double shortest_allowed = 0;  // triangles of coincident points are given some size, too
   for (const auto& t : patch.triangles)
     shortest_allowed =
         std::max(shortest_allowed,
                  (patch.points[static_cast<size_t>(t[1])] - patch.points[static_cast<size_t>(t[0])]).norm());
   shortest_allowed *= 1e-9;
-  for (const auto& t : patch.triangles) {
+  tbb::parallel_for(size_t{0}, shapes.size(), [&](size_t f) {
+    const auto& t = patch.triangles[f];
     std::array<double, 3> opposite{};
     for (size_t i = 0; i < 3; ++i) {
       const auto& from = patch.points[static_cast<size_t>(t[(i + 1) % 3])];
@@ -60,8 +62,8 @@ std::vector<TriangleShape> triangle_shapes(const Patch& patch, double thickness)
       opposite[i] = std::max((to - from).norm(), shortest_allowed);
     }
     mollify(opposite, thickness);
-    shapes.push_back(shape_of(opposite));
-  }
+    shapes[f] = shape_of(opposite);
+  });
   return shapes;
 }
 
