@@ -79,6 +79,7 @@ FitState::FitState(const SurfaceRef& surface, const FitInput& input, const OpenM
       input_(input),
       mesh_(result),
       free_(free_vertices(result, mesh_)),
+      pattern_(mesh_),
       points_(points_of(result)),
       triangles_(mesh_, points_),
       matching_(surface, input_, mesh_, sources_of(surface, result), triangles_, points_),
@@ -126,7 +127,7 @@ int FitState::improve_often(int passes, size_t* held, const Progress& progress) 
 }
 
 std::vector<Vec3d> FitState::solve() const {
-  FitSystem system(free_, 6 * triangles_.corner.size() + 16 * mesh_.sides.size());
+  FitSystem system(free_, pattern_);
   add_surface_terms(mesh_, triangles_, input_, pairs_, points_, options_, typical_energy(pairs_), system);
   double area = 0;
   for (const double a : triangles_.area) area += a;

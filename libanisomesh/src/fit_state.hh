@@ -7,6 +7,7 @@
 #include "anisomesh/fit.hh"
 #include "fit_curves.hh"
 #include "fit_matching.hh"
+#include "fit_system.hh"
 
 namespace anisomesh::detail {
 
@@ -36,6 +37,7 @@ class FitState {
   const FitInput& input_;
   const FitMesh mesh_;
   const std::vector<char> free_;
+  const FitPattern pattern_;
   std::vector<Vec3d> points_;
   FitTriangles triangles_;
   FitMatching matching_;

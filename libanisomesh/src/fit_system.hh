@@ -3,16 +3,33 @@
 
 #include <vector>
 
-#include "numerics/sparse_solver.hh"
+#include "fit_mesh.hh"
 #include "numerics/tensor3d.hh"
 
 namespace anisomesh::detail {
 
+/// Which vertices have to do with each other: those of one polygon. It does not change while vertices move.
+class FitPattern {
+ public:
+  FitPattern() = default;
+  explicit FitPattern(const FitMesh& mesh);
+
+  int rows() const { return static_cast<int>(first_.size()) - 1; }
+  int begin(int v) const { return first_[static_cast<size_t>(v)]; }
+  int end(int v) const { return first_[static_cast<size_t>(v) + 1]; }
+  int column(int place) const { return column_[static_cast<size_t>(place)]; }
+  /// Where in row v the column w is. \pre they have to do with each other
+  int place(int v, int w) const;
+
+ private:
+  std::vector<int> first_{0}, column_;  // of each vertex, ascending, itself too
+};
+
 /// A quadratic form of the steps x: sum of x_v (A_vw x_w) - 2 b_v x_v.
 class FitSystem {
  public:
-  /// \param free vertices that may move \param blocks about so many will be added
-  FitSystem(const std::vector<char>& free, size_t blocks);
+  /// \param free vertices that may move \param pattern is referred to
+  FitSystem(const std::vector<char>& free, const FitPattern& pattern);
 
   /// A_vw += block and, where v and w differ, A_wv too.
   void add(int v, int w, const Vec6d& block);
@@ -21,14 +38,17 @@ class FitSystem {
   template <size_t N>
   void add_row(const int (&v)[N], const double (&factor)[N], const Vec3d& direction, double wanted,
                double weight);
-  /// The steps with the least value; zero for vertices that are not free. \throw SolverFailure
+  /// The steps with the least value, nearly; zero for vertices that are not free. \throw SolverFailure
   std::vector<Vec3d> solve() const;
 
  private:
-  int n_ = 0;
-  std::vector<int> unknown_;  // of each vertex, or -1
-  SymmetricEntries entries_;
-  std::vector<double> right_;
+  std::vector<Vec6d> inverse_diagonal() const;
+  void multiply(const std::vector<Vec3d>& x, std::vector<Vec3d>& result) const;
+
+  const std::vector<char>& free_;
+  const FitPattern& pattern_;
+  std::vector<Vec6d> block_;  // of each place of the pattern
+  std::vector<Vec3d> right_;
 };
 
 template <size_t N>
