@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "anisomesh/errors.hh"
@@ -64,24 +65,23 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
   OpenMesh::PolyMesh work = result, fitted;
   double rms_fitted = 0;
   const auto rms = [&](double energy) { return std::sqrt(0.5 * energy) / surface.diagonal(); };
+  auto state = std::make_unique<detail::FitState>(surface, input, work, fit_options);
+  report.fit.rms_before = rms(state->energy());
   const auto fit = [&](int passes) {
-    detail::FitState state(surface, input, work, fit_options);
-    if (report.fit.passes == 0) report.fit.rms_before = rms(state.energy());
-    report.fit.passes += state.improve_often(passes);
-    for (const auto v : work.vertices()) work.set_point(v, state.points()[static_cast<size_t>(v.idx())]);
-    return state;
+    report.fit.passes += state->improve_often(passes);
+    for (const auto v : work.vertices()) work.set_point(v, state->points()[static_cast<size_t>(v.idx())]);
   };
   const long wanted =
       static_cast<long>(options.target_vertices > 0 ? options.target_vertices : result.n_vertices());
   const bool change = options.rounds > 0 && (options.max_degree == 3 || options.max_degree == 4);
   for (int round = 0; change && round < options.rounds; ++round) {
     report_progress(progress, round / (options.rounds + 1.0));
-    const detail::FitState state = fit(round == 0 ? passes_before : passes_between);
+    fit(round == 0 ? passes_before : passes_between);
     if (round == 0) {
       fitted = work;
-      rms_fitted = rms(state.energy());
+      rms_fitted = rms(state->energy());
     }
-    const detail::PatchMoves moves(surface, input, state, options);
+    const detail::PatchMoves moves(surface, input, *state, options);
     PatchMesh mesh(work);
     PatchChanges changes(mesh);
     const auto removals = moves.removals(mesh), additions = moves.additions(mesh);
@@ -90,17 +90,18 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     for (const PatchMove& move : repartitions)
       if (changes.is_open(move)) changes.apply(move), ++report.parted;
     work = mesh.mesh();
+    state = std::make_unique<detail::FitState>(std::move(*state), work, mesh.heirs());
   }
   report_progress(progress, options.rounds / (options.rounds + 1.0));
-  const detail::FitState last = fit(fit_options.passes);
-  report.fit.rms_after = rms(last.energy());
+  fit(fit_options.passes);
+  report.fit.rms_after = rms(state->energy());
   report_progress(progress, 1);
   // A given number of vertices may have cost more than the moves have gained.
   const bool worse = change && options.target_vertices == 0 && report.fit.rms_after > rms_fitted;
   if (worse) report.fit.rms_after = rms_fitted;
   if (change && !worse) {
     PatchMesh mesh(work);
-    report.split = split_bent_quads(last, input, options.split_gain, options.least_quads, mesh);
+    report.split = split_bent_quads(*state, input, options.split_gain, options.least_quads, mesh);
     if (report.split > 0) work = mesh.mesh();
   }
   result = worse ? std::move(fitted) : std::move(work);

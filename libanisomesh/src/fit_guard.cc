@@ -22,18 +22,16 @@ constexpr int halvings = 5, max_rounds = 100;
 }  // namespace
 
 FitGuard::FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const FitInput& input,
-                   const std::vector<FitPair>& pairs)
+                   const FitPairs& pairs)
     : mesh_(mesh), normals_(static_cast<size_t>(mesh.n_polygons()), Vec3d(0, 0, 0)) {
-  std::vector<int> polygon_of(triangles.corner.size());
-  for (int p = 0; p < mesh.n_polygons(); ++p)
-    for (int t = triangles.first[at(p)]; t < triangles.first[at(p) + 1]; ++t) polygon_of[at(t)] = p;
-  for (const FitPair& pair : pairs)
-    if (pair.triangle >= 0)
-      normals_[at(polygon_of[at(pair.triangle)])] += pair.weight * input.normal[at(pair.face)];
-  for (Vec3d& n : normals_) {
-    const double length = n.norm();
-    if (length > 0) n /= length;
-  }
+  tbb::parallel_for(size_t{0}, normals_.size(), [&](size_t p) {
+    for (int t = triangles.first[p]; t < triangles.first[p + 1]; ++t)
+      pairs.for_each(at(t), [&](const FitPair& pair) {
+        normals_[p] += pair.weight * input.normal[at(pair.face)];
+      });
+    const double length = normals_[p].norm();
+    if (length > 0) normals_[p] /= length;
+  });
 }
 
 FitGuard::Shape FitGuard::shape_of(int polygon, const std::vector<Vec3d>& points) const {

@@ -12,7 +12,7 @@ class FitGuard {
  public:
   /// \param pairs which part of the input each polygon stands for
   FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const FitInput& input,
-           const std::vector<FitPair>& pairs);
+           const FitPairs& pairs);
 
   /// points + share * step, where the share of each vertex is the largest of 1, 1/2, 1/4 ... 0 for which no
   /// polygon becomes folded, concave or a sliver. \param strays marks further vertices that have gone too far

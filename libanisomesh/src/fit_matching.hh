@@ -6,6 +6,7 @@
 #include "anisomesh/lines.hh"
 #include "anisomesh/surface.hh"
 #include "fit_mesh.hh"
+#include "fit_pairs.hh"
 #include "near_locator.hh"
 #include "numerics/tensor3d.hh"
 
@@ -21,27 +22,20 @@ struct FitInput {
   Follow follow = Follow::curvature;  ///< what its lines follow
 };
 
-/// Squared distance of one sample to the other mesh, as the fit sees it: it changes by
-/// weight * (direction | step of the place in the triangle).
-struct FitPair {
-  int triangle = -1;           ///< of the result
-  Vec3d barycentric{0, 0, 0};  ///< in it
-  Vec3d direction{0, 0, 0};    ///< unit, from the result to the input
-  int face = -1;               ///< of the input
-  double distance = 0;         ///< along `direction`, >= 0
-  double weight = 0;           ///< share of the area of the mesh it was sampled on
-};
-
 /// Samples of the input keep the polygon they were matched with, and find the next one from there: a place
 /// on one side of a thin sheet never passes to the other, and features are not crossed.
 class FitMatching {
  public:
   FitMatching(const SurfaceRef& surface, const FitInput& input, const FitMesh& mesh,
-              const std::vector<OpenMesh::FaceHandle>& sources, const FitTriangles& triangles,
+              std::vector<OpenMesh::FaceHandle> sources, const FitTriangles& triangles,
               const std::vector<Vec3d>& points);
+  /// For a mesh in which polygons have changed: samples go on from what stands in their polygon's place.
+  FitMatching(FitMatching&& earlier, const FitMesh& mesh, std::vector<OpenMesh::FaceHandle> sources,
+              const std::vector<int>& heirs);
 
-  /// Pairs of both ways, those of the input first; each way's weights add up to 1.
-  const std::vector<FitPair>& match(const FitTriangles& triangles, const std::vector<Vec3d>& points);
+  /// Pairs of both ways. \param before where vertices were elsewhere, or null
+  void match(const FitTriangles& triangles, const std::vector<Vec3d>& points, const FitPairs* before,
+             FitPairs& pairs);
 
   struct Sample {
     Vec3d place{0, 0, 0};
@@ -55,14 +49,12 @@ class FitMatching {
   int polygon_of(int face) const;
 
  private:
-  void place_samples();
+  void place_samples(const std::vector<int>& polygon, size_t n_triangles);
   int best_at(const int* begin, const int* end, OpenMesh::FaceHandle face, const FitTriangles& triangles,
               const std::vector<Vec3d>& points) const;
   Vec3d centre_of(OpenMesh::FaceHandle face) const;
-  void flood(const std::vector<OpenMesh::FaceHandle>& sources, const FitTriangles& triangles,
-             const std::vector<Vec3d>& points);
-  void start_in_large_faces(const std::vector<OpenMesh::FaceHandle>& sources, const FitTriangles& triangles,
-                            const std::vector<Vec3d>& points);
+  std::vector<int> flood(const FitTriangles& triangles, const std::vector<Vec3d>& points) const;
+  void start_in_large_faces(const FitTriangles& triangles, const std::vector<Vec3d>& points);
   bool nearest(const Vec3d& place, const Vec3d& normal, const FitTriangles& triangles,
                const std::vector<Vec3d>& points, int& polygon, FitPair& pair) const;
   struct Foot {
@@ -72,9 +64,11 @@ class FitMatching {
   };
   OpenMesh::FaceHandle start_from_corners(const Triangle& corner, const Vec3d& normal,
                                           const Vec3d& place) const;
-  Foot foot_of(const Vec3d& place, const Vec3d& normal, const Triangle& corner,
-               const std::vector<int>& matched, double near) const;
-  void match_result(const FitTriangles& triangles, const std::vector<Vec3d>& points);
+  Foot foot_from(const Vec3d& place, const Vec3d& normal, OpenMesh::FaceHandle face) const;
+  Foot foot_of(const Vec3d& place, const Vec3d& normal, const Triangle& corner, int before, const int* begin,
+               const int* end, double near) const;
+  void match_result(const FitTriangles& triangles, const std::vector<Vec3d>& points, const FitPairs* before,
+                    FitPairs& pairs) const;
 
   const SurfaceRef& surface_;
   const FitInput& input_;
@@ -82,8 +76,6 @@ class FitMatching {
   std::vector<OpenMesh::FaceHandle> sources_;
   std::vector<Sample> samples_;
   std::vector<int> first_sample_;  // of each face
-  std::vector<FitPair> pairs_;
-  size_t n_triangles_ = 0;
 };
 
 }  // namespace anisomesh::detail

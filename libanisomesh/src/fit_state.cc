@@ -55,27 +55,23 @@ std::vector<char> free_vertices(const OpenMesh::PolyMesh& result, const FitMesh&
   return free;
 }
 
-double energy_of(const std::vector<FitPair>& pairs) {
-  double sum = 0;
-  for (const FitPair& pair : pairs) sum += pair.weight * pair.distance * pair.distance;
-  return sum;
+/// As if all distances were the mean one: a few places that are far away do not count for all others.
+double typical_energy(const FitPairs& pairs) {
+  return pairs.weight > 0 ? pairs.mean * pairs.mean / pairs.weight : 0;
 }
 
-/// As if all distances were the mean one: a few places that are far away do not count for all others.
-double typical_energy(const std::vector<FitPair>& pairs) {
-  double sum = 0, weights = 0;
-  for (const FitPair& pair : pairs) {
-    sum += pair.weight * pair.distance;
-    weights += pair.weight;
-  }
-  return weights > 0 ? sum * sum / weights : 0;
+FitPairs matched(FitMatching& matching, const FitTriangles& triangles, const std::vector<Vec3d>& points) {
+  FitPairs pairs;
+  matching.match(triangles, points, nullptr, pairs);
+  return pairs;
 }
 
 }  // namespace
 
 FitState::FitState(const SurfaceRef& surface, const FitInput& input, const OpenMesh::PolyMesh& result,
                    const FitOptions& options)
-    : options_(options),
+    : surface_(surface),
+      options_(options),
       input_(input),
       mesh_(result),
       free_(free_vertices(result, mesh_)),
@@ -83,9 +79,22 @@ FitState::FitState(const SurfaceRef& surface, const FitInput& input, const OpenM
       points_(points_of(result)),
       triangles_(mesh_, points_),
       matching_(surface, input_, mesh_, sources_of(surface, result), triangles_, points_),
-      curves_(surface, mesh_, matching_, points_),
-      pairs_(matching_.match(triangles_, points_)),
-      energy_(energy_of(pairs_)) {}
+      pairs_(matched(matching_, triangles_, points_)),
+      curves_(surface, mesh_, matching_, points_) {}
+
+FitState::FitState(FitState&& earlier, const OpenMesh::PolyMesh& result, const std::vector<int>& heirs)
+    : surface_(earlier.surface_),
+      options_(earlier.options_),
+      input_(earlier.input_),
+      mesh_(result),
+      free_(free_vertices(result, mesh_)),
+      pattern_(mesh_),
+      points_(points_of(result)),
+      triangles_(mesh_, points_),
+      matching_(std::move(earlier.matching_), mesh_, sources_of(surface_, result), heirs),
+      pairs_(matched(matching_, triangles_, points_)),
+      spare_(std::move(earlier.spare_)),
+      curves_(surface_, mesh_, matching_, points_) {}
 
 size_t FitState::improve() {
   std::vector<Vec3d> step = solve();
@@ -97,13 +106,11 @@ size_t FitState::improve() {
     size_t held = 0;
     std::vector<Vec3d> moved = guard.move(points_, step, strays, held);
     FitTriangles split(mesh_, moved);
-    std::vector<FitPair> matched = matching_.match(split, moved);
-    const double reached = energy_of(matched);
-    if (reached < energy_) {
-      energy_ = reached;
+    matching_.match(split, moved, &pairs_, spare_);
+    if (spare_.squared < pairs_.squared) {
       points_ = std::move(moved);
       triangles_ = std::move(split);
-      pairs_ = std::move(matched);
+      std::swap(pairs_, spare_);
       curves_.match(points_);
       return held;
     }
@@ -116,11 +123,11 @@ int FitState::improve_often(int passes, size_t* held, const Progress& progress) 
   int done = 0;
   while (done < passes) {
     report_progress(progress, done / static_cast<double>(passes));
-    const double before = energy_;
+    const double before = energy();
     const size_t held_now = improve();
     if (held) *held = std::max(*held, held_now);
     ++done;
-    if (!(energy_ < settled * before)) break;
+    if (!(energy() < settled * before)) break;
   }
   report_progress(progress, 1);
   return done;

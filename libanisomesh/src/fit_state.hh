@@ -16,14 +16,17 @@ class FitState {
   /// \throw InvalidInput if the result was made from another surface
   FitState(const SurfaceRef& surface, const FitInput& input, const OpenMesh::PolyMesh& result,
            const FitOptions& options);
+  /// Goes on with a result in which polygons have changed, and uses up what was known.
+  /// \param heirs of each polygon, one that stands in its place
+  FitState(FitState&& earlier, const OpenMesh::PolyMesh& result, const std::vector<int>& heirs);
 
   /// Twice the squared rms.
-  double energy() const { return energy_; }
+  double energy() const { return pairs_.squared; }
   const std::vector<Vec3d>& points() const { return points_; }
   const FitMesh& mesh() const { return mesh_; }
   const FitTriangles& triangles() const { return triangles_; }
   const FitMatching& matching() const { return matching_; }
-  const std::vector<FitPair>& pairs() const { return pairs_; }
+  const std::vector<FitPair>& pairs() const { return pairs_.pair; }
 
   /// Takes one step, if there is one that lowers the energy. \return vertices that were held back
   size_t improve();
@@ -33,6 +36,7 @@ class FitState {
  private:
   std::vector<Vec3d> solve() const;
 
+  const SurfaceRef& surface_;
   const FitOptions& options_;
   const FitInput& input_;
   const FitMesh mesh_;
@@ -41,9 +45,8 @@ class FitState {
   std::vector<Vec3d> points_;
   FitTriangles triangles_;
   FitMatching matching_;
+  FitPairs pairs_, spare_;
   FitCurves curves_;
-  std::vector<FitPair> pairs_;
-  double energy_;
 };
 
 }  // namespace anisomesh::detail

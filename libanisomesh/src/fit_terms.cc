@@ -66,18 +66,11 @@ struct TriangleForm {
 };
 
 std::vector<TriangleForm> forms_of(const FitTriangles& triangles, const FitInput& input,
-                                   const std::vector<FitPair>& pairs, const std::vector<Vec3d>& points,
+                                   const FitPairs& pairs, const std::vector<Vec3d>& points,
                                    double normal_weight) {
-  std::vector<int> first(triangles.corner.size() + 1, 0), order(pairs.size());
-  for (const FitPair& pair : pairs)
-    if (pair.triangle >= 0) ++first[at(pair.triangle) + 1];
-  for (size_t t = 0; t + 1 < first.size(); ++t) first[t + 1] += first[t];
-  std::vector<int> next(first.begin(), first.end() - 1);
-  for (size_t i = 0; i < pairs.size(); ++i)
-    if (pairs[i].triangle >= 0) order[at(next[at(pairs[i].triangle)]++)] = static_cast<int>(i);
   std::vector<TriangleForm> forms(triangles.corner.size());
   tbb::parallel_for(size_t{0}, forms.size(), [&](size_t t) {
-    for (int i = first[t]; i < first[t + 1]; ++i) forms[t].add(pairs[at(order[at(i)])], input);
+    pairs.for_each(t, [&](const FitPair& pair) { forms[t].add(pair, input); });
     const Triangle& c = triangles.corner[t];
     forms[t].add_heights(normal_weight, {points[at(c[0])], points[at(c[1])], points[at(c[2])]});
   });
@@ -135,8 +128,8 @@ void add_turns(const FitMesh& mesh, const FitTriangles& triangles, const std::ve
 }  // namespace
 
 void add_surface_terms(const FitMesh& mesh, const FitTriangles& triangles, const FitInput& input,
-                       const std::vector<FitPair>& pairs, const std::vector<Vec3d>& points,
-                       const FitOptions& options, double energy, FitSystem& system) {
+                       const FitPairs& pairs, const std::vector<Vec3d>& points, const FitOptions& options,
+                       double energy, FitSystem& system) {
   const auto forms = forms_of(triangles, input, pairs, points, options.normal_weight);
   const Vec6d identity(1, 0, 0, 1, 0, 1);
   for (size_t t = 0; t < forms.size(); ++t) {

@@ -13,8 +13,8 @@ namespace anisomesh::detail {
 /// the turn of the polygons' sides away from the principal directions.
 /// \param energy squared distances, both ways, that the turn is weighed against
 void add_surface_terms(const FitMesh& mesh, const FitTriangles& triangles, const FitInput& input,
-                       const std::vector<FitPair>& pairs, const std::vector<Vec3d>& points,
-                       const FitOptions& options, double energy, FitSystem& system);
+                       const FitPairs& pairs, const std::vector<Vec3d>& points, const FitOptions& options,
+                       double energy, FitSystem& system);
 
 /// How far quads leave their plane.
 void add_planarity(const FitMesh& mesh, const std::vector<Vec3d>& points, double weight, double total_area,

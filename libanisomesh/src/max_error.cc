@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include "anisomesh/errors.hh"
@@ -95,18 +96,18 @@ MaxErrorReport bound_error(const SurfaceRef& surface, OpenMesh::PolyMesh& result
   MaxErrorReport report;
   OpenMesh::PolyMesh work = result;
   Best best;
+  auto state = std::make_unique<detail::FitState>(surface, input, work, fit);
   for (int round = 0;; ++round) {
     report_progress(progress, round / (options.rounds + 1.0));
     const bool last = !change || round == options.rounds;
-    detail::FitState state(surface, input, work, fit);
     const double scale = std::sqrt(0.5) / surface.diagonal();
-    if (round == 0) report.balance.fit.rms_before = scale * std::sqrt(state.energy());
-    report.balance.fit.passes += state.improve_often(last ? fit.passes : passes_between);
-    report.balance.fit.rms_after = scale * std::sqrt(state.energy());
-    for (const auto v : work.vertices()) work.set_point(v, state.points()[static_cast<size_t>(v.idx())]);
+    if (round == 0) report.balance.fit.rms_before = scale * std::sqrt(state->energy());
+    report.balance.fit.passes += state->improve_often(last ? fit.passes : passes_between);
+    report.balance.fit.rms_after = scale * std::sqrt(state->energy());
+    for (const auto v : work.vertices()) work.set_point(v, state->points()[static_cast<size_t>(v.idx())]);
     best.take(work, verify(input_tree, work, limit), limit);
     if (last) break;
-    detail::PatchMoves moves(surface, input, state, balance);
+    detail::PatchMoves moves(surface, input, *state, balance);
     moves.set_limit(far_below * limit);
     PatchMesh mesh(work);
     const auto additions = moves.additions_beyond(mesh, near_bound * limit),
@@ -118,6 +119,7 @@ MaxErrorReport bound_error(const SurfaceRef& surface, OpenMesh::PolyMesh& result
     report.balance.parted += apply_all(changes, repartitions);
     report.balance.removed += apply_all(changes, removals);
     work = mesh.mesh();
+    state = std::make_unique<detail::FitState>(std::move(*state), work, mesh.heirs());
   }
   report.met = best.met;
   report.at_least = best.bounds.at_least / surface.diagonal();

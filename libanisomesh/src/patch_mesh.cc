@@ -41,7 +41,9 @@ PatchMesh::PatchMesh(const OpenMesh::PolyMesh& mesh) : vertices_(mesh.n_vertices
       polygons_.back().push_back(v.idx());
       vertices_[at(v.idx())].polygons.push_back(f.idx());
     }
+    heir_.push_back(f.idx());
   }
+  n_first_ = polygons_.size();
 }
 
 int PatchMesh::across(int v, int w) const {
@@ -149,12 +151,26 @@ void PatchMesh::replace(const Patch& patch, const std::vector<std::vector<int>>&
       at_vertex.erase(std::remove(at_vertex.begin(), at_vertex.end(), p), at_vertex.end());
     }
     polygons_[at(p)].clear();
+    heir_[at(p)] = static_cast<int>(polygons_.size());
   }
   for (const auto& piece : pieces) {
     const int p = static_cast<int>(polygons_.size());
     polygons_.push_back(piece);
+    heir_.push_back(p);
     for (const int v : piece) vertices_[at(v)].polygons.push_back(p);
   }
+}
+
+std::vector<int> PatchMesh::heirs() const {
+  std::vector<int> number, heirs;
+  int live = 0;
+  for (const auto& polygon : polygons_) number.push_back(polygon.empty() ? -1 : live++);
+  for (size_t p = 0; p < n_first_; ++p) {
+    int heir = static_cast<int>(p);
+    while (heir_[at(heir)] != heir) heir = heir_[at(heir)];
+    heirs.push_back(number[at(heir)]);
+  }
+  return heirs;
 }
 
 OpenMesh::PolyMesh PatchMesh::mesh() const {
