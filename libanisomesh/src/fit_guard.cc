@@ -24,6 +24,12 @@ constexpr int halvings = 5, max_rounds = 100;
 FitGuard::FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const FitInput& input,
                    const FitPairs& pairs)
     : mesh_(mesh), normals_(static_cast<size_t>(mesh.n_polygons()), Vec3d(0, 0, 0)) {
+  beside_.assign(mesh.sides.size(), {-1, -1});
+  for (int p = 0; p < mesh.n_polygons(); ++p)
+    for (int i = mesh.first_corner[at(p)]; i < mesh.first_corner[at(p) + 1]; ++i) {
+      auto& pair = beside_[at(mesh.corner_side[at(i)])];
+      (pair.first < 0 ? pair.first : pair.second) = p;
+    }
   tbb::parallel_for(size_t{0}, normals_.size(), [&](size_t p) {
     for (int t = triangles.first[p]; t < triangles.first[p + 1]; ++t)
       pairs.for_each(at(t), [&](const FitPair& pair) {
@@ -80,9 +86,9 @@ std::vector<char> FitGuard::unsound(const std::vector<Vec3d>& points,
     shape[p] = shape_of(static_cast<int>(p), points);
     bad[p] = !is_sound(static_cast<int>(p), shape[p], before[p]);
   });
-  for (int p = 0; p < mesh_.n_polygons(); ++p)
-    for (int i = mesh_.first_around[at(p)]; i < mesh_.first_around[at(p) + 1]; ++i) {
-      const int q = mesh_.around[at(i)];
+  for (size_t s = 0; s < beside_.size(); ++s) {
+      const auto [p, q] = beside_[s];
+      if (q < 0) continue;
       const double cosine = shape[at(p)].normal | shape[at(q)].normal;
       if (cosine < least_fold && cosine < (before[at(p)].normal | before[at(q)].normal))
         bad[at(p)] = bad[at(q)] = 1;

@@ -33,6 +33,7 @@ class FitGuard {
   std::vector<char> unsound(const std::vector<Vec3d>& points, const std::vector<Shape>& before) const;
 
   const FitMesh& mesh_;
+  std::vector<std::pair<int, int>> beside_;  // the polygons at each side; the second is -1 at the border
   std::vector<Vec3d> normals_;  // of the input, for each polygon; zero where none is known
 };
 

@@ -61,15 +61,28 @@ FitMatching::FitMatching(const SurfaceRef& surface, const FitInput& input, const
 }
 
 FitMatching::FitMatching(FitMatching&& earlier, const FitMesh& mesh,
-                         std::vector<OpenMesh::FaceHandle> sources, const std::vector<int>& heirs)
+                         std::vector<OpenMesh::FaceHandle> sources,
+                         const std::vector<PolygonRange>& heirs, const FitTriangles& triangles,
+                         const std::vector<Vec3d>& points)
     : surface_(earlier.surface_),
       input_(earlier.input_),
       mesh_(mesh),
       sources_(std::move(sources)),
       samples_(std::move(earlier.samples_)),
       first_sample_(std::move(earlier.first_sample_)) {
-  for (Sample& sample : samples_)
-    if (sample.polygon >= 0) sample.polygon = heirs[at(sample.polygon)];
+  tbb::parallel_for(size_t{0}, samples_.size(), [&](size_t i) {
+    Sample& sample = samples_[i];
+    const PolygonRange range = heirs[at(sample.polygon)];
+    sample.polygon = range.begin;
+    if (range.end - range.begin < 2) return;
+    double least = std::numeric_limits<double>::infinity();
+    for (int p = range.begin; p < range.end; ++p) {
+      FitPair pair;
+      int polygon = p;
+      if (!nearest(sample.place, input_.normal[at(sample.face)], triangles, points, polygon, pair)) continue;
+      if (pair.distance < least) least = pair.distance, sample.polygon = polygon;
+    }
+  });
 }
 
 void FitMatching::place_samples(const std::vector<int>& polygon, size_t n_triangles) {

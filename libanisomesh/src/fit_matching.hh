@@ -31,7 +31,8 @@ class FitMatching {
               const std::vector<Vec3d>& points);
   /// For a mesh in which polygons have changed: samples go on from what stands in their polygon's place.
   FitMatching(FitMatching&& earlier, const FitMesh& mesh, std::vector<OpenMesh::FaceHandle> sources,
-              const std::vector<int>& heirs);
+              const std::vector<PolygonRange>& heirs, const FitTriangles& triangles,
+              const std::vector<Vec3d>& points);
 
   /// Pairs of both ways. \param before where vertices were elsewhere, or null
   void match(const FitTriangles& triangles, const std::vector<Vec3d>& points, const FitPairs* before,

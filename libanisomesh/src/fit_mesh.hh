@@ -8,6 +8,11 @@
 
 namespace anisomesh::detail {
 
+/// Polygons begin, begin + 1 ... end - 1.
+struct PolygonRange {
+  int begin = 0, end = 0;
+};
+
 /// What does not change while vertices move.
 struct FitMesh {
   explicit FitMesh(const OpenMesh::PolyMesh& mesh);

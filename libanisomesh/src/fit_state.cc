@@ -82,7 +82,7 @@ FitState::FitState(const SurfaceRef& surface, const FitInput& input, const OpenM
       pairs_(matched(matching_, triangles_, points_)),
       curves_(surface, mesh_, matching_, points_) {}
 
-FitState::FitState(FitState&& earlier, const OpenMesh::PolyMesh& result, const std::vector<int>& heirs)
+FitState::FitState(FitState&& earlier, const OpenMesh::PolyMesh& result, const std::vector<PolygonRange>& heirs)
     : surface_(earlier.surface_),
       options_(earlier.options_),
       input_(earlier.input_),
@@ -91,7 +91,7 @@ FitState::FitState(FitState&& earlier, const OpenMesh::PolyMesh& result, const s
       pattern_(mesh_),
       points_(points_of(result)),
       triangles_(mesh_, points_),
-      matching_(std::move(earlier.matching_), mesh_, sources_of(surface_, result), heirs),
+      matching_(std::move(earlier.matching_), mesh_, sources_of(surface_, result), heirs, triangles_, points_),
       pairs_(matched(matching_, triangles_, points_)),
       spare_(std::move(earlier.spare_)),
       curves_(surface_, mesh_, matching_, points_) {}
@@ -107,6 +107,7 @@ size_t FitState::improve() {
     std::vector<Vec3d> moved = guard.move(points_, step, strays, held);
     FitTriangles split(mesh_, moved);
     matching_.match(split, moved, &pairs_, spare_);
+    if (getenv("V")) fprintf(stderr, "  attempt %d %.6g held %zu\n", attempt, 1e8*spare_.squared, held);
     if (spare_.squared < pairs_.squared) {
       points_ = std::move(moved);
       triangles_ = std::move(split);
@@ -124,6 +125,7 @@ int FitState::improve_often(int passes, size_t* held, const Progress& progress) 
   while (done < passes) {
     report_progress(progress, done / static_cast<double>(passes));
     const double before = energy();
+    if (getenv("V")) fprintf(stderr, "E %.6g worst %.4g\n", 1e8*before, [&]{double w=0; for(auto& q:pairs_.pair) w=std::max(w,q.weight*q.distance*q.distance); return 1e8*w;}());
     const size_t held_now = improve();
     if (held) *held = std::max(*held, held_now);
     ++done;

@@ -17,8 +17,8 @@ class FitState {
   FitState(const SurfaceRef& surface, const FitInput& input, const OpenMesh::PolyMesh& result,
            const FitOptions& options);
   /// Goes on with a result in which polygons have changed, and uses up what was known.
-  /// \param heirs of each polygon, one that stands in its place
-  FitState(FitState&& earlier, const OpenMesh::PolyMesh& result, const std::vector<int>& heirs);
+  /// \param heirs of each polygon, those in its place; none where it was changed twice
+  FitState(FitState&& earlier, const OpenMesh::PolyMesh& result, const std::vector<PolygonRange>& heirs);
 
   /// Twice the squared rms.
   double energy() const { return pairs_.squared; }

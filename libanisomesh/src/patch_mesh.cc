@@ -41,9 +41,8 @@ PatchMesh::PatchMesh(const OpenMesh::PolyMesh& mesh) : vertices_(mesh.n_vertices
       polygons_.back().push_back(v.idx());
       vertices_[at(v.idx())].polygons.push_back(f.idx());
     }
-    heir_.push_back(f.idx());
+    heirs_.push_back({f.idx(), f.idx() + 1});
   }
-  n_first_ = polygons_.size();
 }
 
 int PatchMesh::across(int v, int w) const {
@@ -145,31 +144,27 @@ int PatchMesh::add_vertex(const Vec3d& point, const SurfacePoint& source) {
 }
 
 void PatchMesh::replace(const Patch& patch, const std::vector<std::vector<int>>& pieces) {
+  const int first = static_cast<int>(polygons_.size());
   for (const int p : patch.polygons) {
     for (const int v : polygons_[at(p)]) {
       auto& at_vertex = vertices_[at(v)].polygons;
       at_vertex.erase(std::remove(at_vertex.begin(), at_vertex.end(), p), at_vertex.end());
     }
     polygons_[at(p)].clear();
-    heir_[at(p)] = static_cast<int>(polygons_.size());
+    if (at(p) < heirs_.size()) heirs_[at(p)] = {first, first + static_cast<int>(pieces.size())};
   }
   for (const auto& piece : pieces) {
     const int p = static_cast<int>(polygons_.size());
     polygons_.push_back(piece);
-    heir_.push_back(p);
     for (const int v : piece) vertices_[at(v)].polygons.push_back(p);
   }
 }
 
-std::vector<int> PatchMesh::heirs() const {
-  std::vector<int> number, heirs;
-  int live = 0;
-  for (const auto& polygon : polygons_) number.push_back(polygon.empty() ? -1 : live++);
-  for (size_t p = 0; p < n_first_; ++p) {
-    int heir = static_cast<int>(p);
-    while (heir_[at(heir)] != heir) heir = heir_[at(heir)];
-    heirs.push_back(number[at(heir)]);
-  }
+std::vector<PolygonRange> PatchMesh::heirs() const {
+  std::vector<int> number{0};
+  for (const auto& polygon : polygons_) number.push_back(number.back() + !polygon.empty());
+  std::vector<PolygonRange> heirs = heirs_;
+  for (auto& range : heirs) range = {number[at(range.begin)], number[at(range.end)]};
   return heirs;
 }
 

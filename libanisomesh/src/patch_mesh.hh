@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "anisomesh/surface.hh"
+#include "fit_mesh.hh"
 
 namespace anisomesh::detail {
 
@@ -48,8 +49,8 @@ class PatchMesh {
 
   /// The result with all its properties; vertices without a polygon are left out.
   OpenMesh::PolyMesh mesh() const;
-  /// For each polygon that there was at first, the number in mesh() of it, or of one in its place.
-  std::vector<int> heirs() const;
+  /// For each polygon that there was at first, the numbers in mesh() of it or of those in its place.
+  std::vector<PolygonRange> heirs() const;
 
  private:
   static std::uint64_t key(int v, int w) {
@@ -62,8 +63,7 @@ class PatchMesh {
 
   std::vector<Vertex> vertices_;
   std::vector<std::vector<int>> polygons_;  // empty: taken out
-  std::vector<int> heir_;                   // of each polygon, itself or the first that took its place
-  size_t n_first_ = 0;                      // polygons that there were
+  std::vector<PolygonRange> heirs_;         // of each polygon that there was at first
   std::unordered_map<std::uint64_t, int> kind_;
   std::unordered_map<std::uint64_t, char> curve_;
 };
