@@ -107,7 +107,6 @@ size_t FitState::improve() {
     std::vector<Vec3d> moved = guard.move(points_, step, strays, held);
     FitTriangles split(mesh_, moved);
     matching_.match(split, moved, &pairs_, spare_);
-    if (getenv("V")) fprintf(stderr, "  attempt %d %.6g held %zu\n", attempt, 1e8*spare_.squared, held);
     if (spare_.squared < pairs_.squared) {
       points_ = std::move(moved);
       triangles_ = std::move(split);
@@ -125,7 +124,6 @@ int FitState::improve_often(int passes, size_t* held, const Progress& progress) 
   while (done < passes) {
     report_progress(progress, done / static_cast<double>(passes));
     const double before = energy();
-    if (getenv("V")) fprintf(stderr, "E %.6g worst %.4g\n", 1e8*before, [&]{double w=0; for(auto& q:pairs_.pair) w=std::max(w,q.weight*q.distance*q.distance); return 1e8*w;}());
     const size_t held_now = improve();
     if (held) *held = std::max(*held, held_now);
     ++done;

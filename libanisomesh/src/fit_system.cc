@@ -115,7 +115,6 @@ std::vector<Vec3d> FitSystem::solve() const {
     square = dot(residual, scaled);
     for (size_t v = 0; v < n; ++v) direction[v] = scaled[v] + (square / before) * direction[v];
   }
-  if (getenv("V")) fprintf(stderr, "cg %d\n", iteration);
   if (!std::isfinite(square)) throw SolverFailure("the system of the fit has no finite solution");
   return step;
 }
