@@ -90,7 +90,7 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     for (const PatchMove& move : repartitions)
       if (changes.is_open(move)) changes.apply(move), ++report.parted;
     work = mesh.mesh();
-     state = std::make_unique<detail::FitState>(std::move(*state), work, mesh.heirs());
+    state = std::make_unique<detail::FitState>(std::move(*state), work, mesh.heirs());
   }
   report_progress(progress, options.rounds / (options.rounds + 1.0));
   fit(fit_options.passes);

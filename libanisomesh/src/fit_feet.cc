@@ -14,7 +14,7 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-constexpr double result_samples = 6;  // for each triangle, at least
+constexpr double result_samples = 4;  // for each triangle, at least
 constexpr int starts = 6;             // places to look from
 
 }  // namespace
@@ -101,7 +101,8 @@ void FitMatching::match_result(const FitTriangles& triangles, const std::vector<
     const Vec3d &a = points[at(corner[0])], &b = points[at(corner[1])], &c = points[at(corner[2])];
     const bool known = before && before->first_own[t + 1] - before->first_own[t] == count;
     size_t old = known ? before->n_input + at(before->first_own[t]) : 0, index = pairs.n_input + at(first[t]);
-    const int *begin = pairs.of_input.data() + pairs.first[t], *end = pairs.of_input.data() + pairs.first[t + 1];
+    const int *begin = pairs.of_input.data() + pairs.first[t],
+              *end = pairs.of_input.data() + pairs.first[t + 1];
     const double near = near_match * std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
     for_each_piece(static_cast<int>(std::lround(std::sqrt(count))), [&](const Vec3d& w) {
       const Vec3d place = w[0] * a + w[1] * b + w[2] * c;

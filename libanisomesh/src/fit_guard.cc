@@ -32,9 +32,8 @@ FitGuard::FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const Fit
     }
   tbb::parallel_for(size_t{0}, normals_.size(), [&](size_t p) {
     for (int t = triangles.first[p]; t < triangles.first[p + 1]; ++t)
-      pairs.for_each(at(t), [&](const FitPair& pair) {
-        normals_[p] += pair.weight * input.normal[at(pair.face)];
-      });
+      pairs.for_each(at(t),
+                     [&](const FitPair& pair) { normals_[p] += pair.weight * input.normal[at(pair.face)]; });
     const double length = normals_[p].norm();
     if (length > 0) normals_[p] /= length;
   });
@@ -87,12 +86,12 @@ std::vector<char> FitGuard::unsound(const std::vector<Vec3d>& points,
     bad[p] = !is_sound(static_cast<int>(p), shape[p], before[p]);
   });
   for (size_t s = 0; s < beside_.size(); ++s) {
-      const auto [p, q] = beside_[s];
-      if (q < 0) continue;
-      const double cosine = shape[at(p)].normal | shape[at(q)].normal;
-      if (cosine < least_fold && cosine < (before[at(p)].normal | before[at(q)].normal))
-        bad[at(p)] = bad[at(q)] = 1;
-    }
+    const auto [p, q] = beside_[s];
+    if (q < 0) continue;
+    const double cosine = shape[at(p)].normal | shape[at(q)].normal;
+    if (cosine < least_fold && cosine < (before[at(p)].normal | before[at(q)].normal))
+      bad[at(p)] = bad[at(q)] = 1;
+  }
   return bad;
 }
 

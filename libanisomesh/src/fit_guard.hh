@@ -11,8 +11,7 @@ namespace anisomesh::detail {
 class FitGuard {
  public:
   /// \param pairs which part of the input each polygon stands for
-  FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const FitInput& input,
-           const FitPairs& pairs);
+  FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const FitInput& input, const FitPairs& pairs);
 
   /// points + share * step, where the share of each vertex is the largest of 1, 1/2, 1/4 ... 0 for which no
   /// polygon becomes folded, concave or a sliver. \param strays marks further vertices that have gone too far
@@ -34,7 +33,7 @@ class FitGuard {
 
   const FitMesh& mesh_;
   std::vector<std::pair<int, int>> beside_;  // the polygons at each side; the second is -1 at the border
-  std::vector<Vec3d> normals_;  // of the input, for each polygon; zero where none is known
+  std::vector<Vec3d> normals_;               // of the input, for each polygon; zero where none is known
 };
 
 }  // namespace anisomesh::detail

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "anisomesh/features.hh"
 #include "anisomesh/properties.hh"
 #include "fit_samples.hh"
 
@@ -15,7 +16,8 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-constexpr double input_samples = 12;  // for each triangle of the result, at least
+constexpr double input_samples = 8;   // for each triangle of the result
+constexpr double least_samples = 24;  // for each polygon, if there are as many
 constexpr double inside = 2.5;        // distances: a foot as far from all sides needs no closer look
 
 Vec3d area_vector(const SurfaceRef& surface, OpenMesh::FaceHandle face) {
@@ -61,9 +63,8 @@ FitMatching::FitMatching(const SurfaceRef& surface, const FitInput& input, const
 }
 
 FitMatching::FitMatching(FitMatching&& earlier, const FitMesh& mesh,
-                         std::vector<OpenMesh::FaceHandle> sources,
-                         const std::vector<PolygonRange>& heirs, const FitTriangles& triangles,
-                         const std::vector<Vec3d>& points)
+                         std::vector<OpenMesh::FaceHandle> sources, const std::vector<PolygonRange>& heirs,
+                         const FitTriangles& triangles, const std::vector<Vec3d>& points)
     : surface_(earlier.surface_),
       input_(earlier.input_),
       mesh_(mesh),
@@ -85,22 +86,66 @@ FitMatching::FitMatching(FitMatching&& earlier, const FitMesh& mesh,
   });
 }
 
+namespace {
+
+/// Takes pieces of a polygon's part of the input so that those taken stand for about equal areas.
+struct Thinning {
+  int pieces = 0;
+  double area = 0, step = 0, passed = 0, next = 0;
+
+  void begin(double wanted) {
+    if (pieces > wanted) step = area / std::ceil(wanted);
+    next = 0.5 * step;
+  }
+  /// \return the area that it stands for; 0: it is left out
+  double take(double piece) {
+    if (!(step > 0)) return piece;
+    double weight = 0;
+    for (passed += piece; next < passed; next += step) weight += step;
+    return weight;
+  }
+};
+
+bool touches_curve(const OpenMesh::TriConnectivity& mesh, OpenMesh::FaceHandle face) {
+  for (const auto h : mesh.fh_range(face))
+    if (is_feature_or_border(mesh, mesh.edge_handle(h))) return true;
+  return false;
+}
+
+}  // namespace
+
+// As many as the polygons need: where the input's faces are far smaller, some are left out, evenly by area,
+// but for those beside features and borders.
 void FitMatching::place_samples(const std::vector<int>& polygon, size_t n_triangles) {
   const auto& mesh = surface_.connectivity();
   double total = 0;
   for (const double area : input_.area) total += area;
   const double share = total / (input_samples * static_cast<double>(n_triangles));
+  std::vector<Thinning> thinning(at(mesh_.n_polygons()));
+  std::vector<int> parts(mesh.n_faces(), 0);
+  for (size_t f = 0; f < parts.size(); ++f) {
+    if (!(input_.area[f] > 0) || polygon[f] < 0) continue;
+    parts[f] = divisions(input_.area[f], share);
+    thinning[at(polygon[f])].pieces += parts[f] * parts[f];
+    thinning[at(polygon[f])].area += input_.area[f];
+  }
+  for (Thinning& t : thinning) t.begin(std::max(least_samples, t.area / share));
   for (const auto f : mesh.faces()) {
     first_sample_.push_back(static_cast<int>(samples_.size()));
-    if (!(input_.area[at(f.idx())] > 0) || polygon[at(f.idx())] < 0) continue;
+    const int n = parts[at(f.idx())];
+    if (n == 0) continue;
+    const bool all = touches_curve(mesh, f);
     const auto c = surface_.corners(f);
-    const int n = divisions(input_.area[at(f.idx())], share);
+    const double piece = input_.area[at(f.idx())] / (n * n);
+    Sample sample;
+    sample.face = f.idx();
+    sample.polygon = polygon[at(f.idx())];
     for_each_piece(n, [&](const Vec3d& b) {
-      Sample sample;
-      for (size_t k = 0; k < 3; ++k) sample.place += b[k] * surface_.point(c.vertex[k]);
-      sample.face = f.idx();
-      sample.weight = input_.area[at(f.idx())] / (n * n * total);
-      sample.polygon = polygon[at(f.idx())];
+      const double area = thinning[at(sample.polygon)].take(piece);
+      sample.weight = (all ? piece : area) / total;
+      if (!(sample.weight > 0)) return;
+      sample.place = b[0] * surface_.point(c.vertex[0]) + b[1] * surface_.point(c.vertex[1]) +
+                     b[2] * surface_.point(c.vertex[2]);
       samples_.push_back(sample);
     });
   }

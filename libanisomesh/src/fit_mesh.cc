@@ -11,6 +11,8 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
+constexpr double no_side = 1e100;  // "height" over a diagonal: beyond it lies the same polygon
+
 bool is_curve(const OpenMesh::PolyMesh& mesh, OpenMesh::EdgeHandle e) {
   return mesh.is_boundary(e) || (mesh.has_edge_status() && mesh.status(e).feature());
 }
@@ -94,8 +96,12 @@ FitTriangles::FitTriangles(const FitMesh& mesh, const std::vector<Vec3d>& points
       corner.push_back({mesh.begin(p)[local[0]], mesh.begin(p)[local[1]], mesh.begin(p)[local[2]]});
       normal.push_back(twice > 0 ? n / twice : Vec3d(0, 0, 0));
       area.push_back(0.5 * twice);
-      const auto over = [&](const Vec3d& side) { return twice > 0 ? twice / side.norm() : 0; };
-      height.emplace_back(over(c - b), over(a - c), over(b - a));
+      const auto over = [&](size_t k) {  // the side from corner k + 1 to k + 2
+        const int from = local[(k + 1) % 3], to = local[(k + 2) % 3];
+        if (to != (from + 1) % mesh.degree(p)) return no_side;
+        return twice > 0 ? twice / (place[at(to)] - place[at(from)]).norm() : 0;
+      };
+      height.emplace_back(over(0), over(1), over(2));
     }
   }
   first.push_back(static_cast<int>(corner.size()));

@@ -48,7 +48,7 @@ struct FitTriangles {
   std::vector<Triangle> corner;
   std::vector<Vec3d> normal;  ///< unit; zero without area
   std::vector<double> area;
-  std::vector<Vec3d> height;   ///< over the side opposite to each corner
+  std::vector<Vec3d> height;   ///< over the side opposite to each corner; huge where it is a diagonal
   std::vector<Vec3d> centre;   ///< of each polygon
   std::vector<double> radius;  ///< of the ball around its centre that holds the polygon
 };

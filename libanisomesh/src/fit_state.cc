@@ -82,7 +82,8 @@ FitState::FitState(const SurfaceRef& surface, const FitInput& input, const OpenM
       pairs_(matched(matching_, triangles_, points_)),
       curves_(surface, mesh_, matching_, points_) {}
 
-FitState::FitState(FitState&& earlier, const OpenMesh::PolyMesh& result, const std::vector<PolygonRange>& heirs)
+FitState::FitState(FitState&& earlier, const OpenMesh::PolyMesh& result,
+                   const std::vector<PolygonRange>& heirs)
     : surface_(earlier.surface_),
       options_(earlier.options_),
       input_(earlier.input_),
@@ -91,7 +92,8 @@ FitState::FitState(FitState&& earlier, const OpenMesh::PolyMesh& result, const s
       pattern_(mesh_),
       points_(points_of(result)),
       triangles_(mesh_, points_),
-      matching_(std::move(earlier.matching_), mesh_, sources_of(surface_, result), heirs, triangles_, points_),
+      matching_(std::move(earlier.matching_), mesh_, sources_of(surface_, result), heirs, triangles_,
+                points_),
       pairs_(matched(matching_, triangles_, points_)),
       spare_(std::move(earlier.spare_)),
       curves_(surface_, mesh_, matching_, points_) {}

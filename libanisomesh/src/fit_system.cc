@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <cstdio>
 
 #include "anisomesh/errors.hh"
 
@@ -87,7 +85,8 @@ void FitSystem::multiply(const std::vector<Vec3d>& x, std::vector<Vec3d>& result
   tbb::parallel_for(tbb::blocked_range<int>(0, pattern_.rows(), rows_at_once), [&](const auto& range) {
     for (int v = range.begin(); v != range.end(); ++v) {
       Vec3d sum(0, 0, 0);
-      for (int i = pattern_.begin(v); i < pattern_.end(v); ++i) sum += apply(block_[at(i)], x[at(pattern_.column(i))]);
+      for (int i = pattern_.begin(v); i < pattern_.end(v); ++i)
+        sum += apply(block_[at(i)], x[at(pattern_.column(i))]);
       result[at(v)] = sum;
     }
   });
@@ -101,8 +100,7 @@ std::vector<Vec3d> FitSystem::solve() const {
   std::vector<Vec3d> step(n, Vec3d(0, 0, 0)), residual = right_, scaled(n), direction(n), image(n);
   for (size_t v = 0; v < n; ++v) direction[v] = scaled[v] = apply(scale[v], residual[v]);
   double square = dot(residual, scaled);
-  static const double ne = getenv("CGTOL") ? atof(getenv("CGTOL")) : near_enough;
-  const double enough = ne * ne * square;
+  const double enough = near_enough * near_enough * square;
   int iteration = 0;
   for (; iteration < most_iterations && square > enough; ++iteration) {
     multiply(direction, image);
