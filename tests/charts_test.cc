@@ -143,8 +143,8 @@ TEST_CASE("features bound charts", "[charts]") {
 }
 
 TEST_CASE("without tags the borders of charts keep to creases", "[charts]") {
-  const auto share_on_creases = [](double weight) {
-    auto cube = make_shape("cube", {3000});
+  const auto share_on_creases = [](double weight, int triangles) {
+    auto cube = make_shape("cube", {triangles});
     for (const auto e : cube.edges()) cube.status(e).set_feature(false);
     ChartOptions options;
     options.crease_weight = weight;
@@ -159,8 +159,14 @@ TEST_CASE("without tags the borders of charts keep to creases", "[charts]") {
     }
     return on_crease / report.seam_length;
   };
-  CHECK(share_on_creases(1) > 3 * share_on_creases(0));
-  CHECK(share_on_creases(1) > 0.4);
+  double with = 0, without = 0;  // of one cube it is chance where the borders run without the weight
+  for (const int triangles : {1000, 2000, 3000, 4000}) {
+    const double share = share_on_creases(1, triangles);
+    CHECK(share > 0.4);
+    with += share;
+    without += share_on_creases(0, triangles);
+  }
+  CHECK(with > 3 * without);
 }
 
 TEST_CASE("charts that are there can be kept, and scale with the surface", "[charts]") {

@@ -9,6 +9,8 @@
 #include "anisomesh/flatten.hh"
 #include "anisomesh/io.hh"
 #include "anisomesh/lines.hh"
+#include "anisomesh/properties.hh"
+#include "anisomesh/remesh.hh"
 #include "anisomesh/shapes.hh"
 #include "anisomesh/smoothing.hh"
 #include "anisomesh/umbilics.hh"
@@ -106,4 +108,87 @@ TEST_CASE("lines follow a scan that is moved, turned, scaled or renumbered", "[i
   const auto path = demo_mesh(plane ? "lion-head.off" : "elephant.off");
   if (!path) return skip(plane ? "lion-head.off" : "elephant.off");
   check_invariance(read_surface(*path), plane, 0.001);
+}
+
+namespace {
+
+// The same polygons, made of the same numbers, from the same places of the same faces.
+void check_renumbered(OpenMesh::TriMesh mesh, const RemeshOptions& options) {
+  auto copy = changed(mesh, changes(1).back());
+  RemeshReport expected, found;
+  const auto result = remesh(mesh, options, &expected), other = remesh(copy, options, &found);
+  CHECK(found.attempts == expected.attempts);
+  CHECK(found.epsilon_fraction == expected.epsilon_fraction);
+  REQUIRE(other.n_vertices() == result.n_vertices());
+  REQUIRE(other.n_faces() == result.n_faces());
+  const auto face = require_property(result, property::source_face),
+             other_face = require_property(other, property::source_face);
+  const auto barycentric = require_property(result, property::source_barycentric),
+             other_barycentric = require_property(other, property::source_barycentric);
+  const SurfaceRef surface = mesh, renumbered = copy;
+  double farthest = 0;
+  bool same = true;
+  for (const auto v : result.vertices()) {
+    const auto w = other.vertex_handle(static_cast<unsigned>(v.idx()));
+    same = same && result.point(v) == other.point(w);
+    const Vec3d from =
+        position(surface, {OpenMesh::FaceHandle(result.property(face, v)), result.property(barycentric, v)});
+    const Vec3d there = position(renumbered, {OpenMesh::FaceHandle(other.property(other_face, w)),
+                                              other.property(other_barycentric, w)});
+    farthest = std::max(farthest, (from - there).norm());
+  }
+  CHECK(same);
+  CHECK(farthest <= 1e-12 * surface.diagonal());
+  bool same_corners = true;
+  for (const auto f : result.faces()) {
+    std::vector<int> here, there;
+    for (const auto v : result.fv_range(f)) here.push_back(v.idx());
+    for (const auto v : other.fv_range(other.face_handle(static_cast<unsigned>(f.idx()))))
+      there.push_back(v.idx());
+    same_corners = same_corners && here == there;
+  }
+  CHECK(same_corners);
+  // What the stages have left on the surface lies on the same elements.
+  const auto k_max = require_property(mesh, property::k_max),
+             other_k_max = require_property(copy, property::k_max);
+  std::vector<double> here, there;
+  for (const auto v : mesh.vertices()) here.push_back(mesh.property(k_max, v) + surface.point(v)[0]);
+  for (const auto v : copy.vertices())
+    there.push_back(copy.property(other_k_max, v) + renumbered.point(v)[0]);
+  std::sort(here.begin(), here.end());
+  std::sort(there.begin(), there.end());
+  CHECK(here == there);
+  const auto lines = read_lines(surface).lines, other_lines = read_lines(renumbered).lines;
+  REQUIRE(other_lines.size() == lines.size());
+  for (size_t i = 0; i < lines.size(); ++i) {
+    REQUIRE(other_lines[i].points.size() == lines[i].points.size());
+    for (size_t j = 0; j < lines[i].points.size(); ++j)
+      farthest = std::max(
+          farthest,
+          (position(surface, lines[i].points[j]) - position(renumbered, other_lines[i].points[j])).norm());
+  }
+  CHECK(farthest <= 1e-12 * surface.diagonal());
+}
+
+}  // namespace
+
+TEST_CASE("a renumbered surface gives the same polygons to the last bit", "[invariance]") {
+  RemeshOptions options;
+  options.target_faces = 500;
+  SECTION("in the plane") { check_renumbered(make_shape("ellipsoid-cap", {3000, true}), options); }
+  SECTION("on the surface, fitted") {
+    options.fit.enabled = true;
+    check_renumbered(make_shape("ellipsoid", {3000, true}), options);
+  }
+  SECTION("in charts") {
+    options.domain = Domain::charts;
+    check_renumbered(make_shape("torus", {3000, true}), options);
+  }
+  SECTION("a part with features") {
+    const auto path = demo_mesh("fandisk.off");
+    if (!path) return skip("fandisk.off");
+    options.target_faces = 0;
+    options.trace.density.epsilon_fraction = 2e-4;
+    check_renumbered(read_surface(*path), options);
+  }
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "anisomesh/errors.hh"
+#include "canonical_copy.hh"
 #include "patch_moves.hh"
 #include "quad_splits.hh"
 
@@ -57,6 +58,11 @@ void BalanceOptions::validate() const {
 BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& result,
                                const BalanceOptions& options, const FitOptions& fit_options,
                                const Progress& progress) {
+  if (!surface.canonical_copy())
+    return detail::change_in_canonical_order(
+        surface, result, [&](const SurfaceRef& ordered, OpenMesh::PolyMesh& work) {
+          return balance_vertices(ordered, work, options, fit_options, progress);
+        });
   const auto start = std::chrono::steady_clock::now();
   options.validate();
   fit_options.validate();

@@ -9,6 +9,7 @@
 
 #include "anisomesh/errors.hh"
 #include "anisomesh/properties.hh"
+#include "canonical_copy.hh"
 #include "chart_patch.hh"
 #include "cut_surface.hh"
 #include "patch_map.hh"
@@ -176,6 +177,9 @@ void ChartOptions::validate() const {
 
 ChartReport cut_into_charts(const SurfaceRef& surface, const ChartOptions& options,
                             const Progress& progress) {
+  if (!surface.canonical_copy())
+    return detail::in_canonical_order(
+        surface, [&](const SurfaceRef& ordered) { return cut_into_charts(ordered, options, progress); });
   const auto start = std::chrono::steady_clock::now();
   options.validate();
   report_progress(progress, 0);

@@ -2,6 +2,7 @@
 
 #include "anisomesh/domain.hh"
 #include "anisomesh/properties.hh"
+#include "canonical_copy.hh"
 
 namespace anisomesh {
 
@@ -31,6 +32,9 @@ std::string try_plane(const SurfaceRef& surface, FlattenReport& report, const Pr
 }  // namespace
 
 DomainReport choose_domain(const SurfaceRef& surface, Domain wanted, const Progress& progress) {
+  if (!surface.canonical_copy())
+    return detail::in_canonical_order(
+        surface, [&](const SurfaceRef& ordered) { return choose_domain(ordered, wanted, progress); });
   const auto start = std::chrono::steady_clock::now();
   DomainReport report;
   if (wanted == Domain::plane) {

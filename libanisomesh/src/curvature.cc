@@ -13,6 +13,7 @@
 #include "anisomesh/properties.hh"
 #include "ball_centres.hh"
 #include "ball_flood.hh"
+#include "canonical_copy.hh"
 #include "curvature_measures.hh"
 #include "noise.hh"
 #include "numerics/tensor2d.hh"
@@ -243,6 +244,9 @@ void CurvatureOptions::validate() const {
 
 CurvatureReport estimate_curvature(const SurfaceRef& surface, const CurvatureOptions& given,
                                    const Progress& progress) {
+  if (!surface.canonical_copy())
+    return detail::in_canonical_order(
+        surface, [&](const SurfaceRef& ordered) { return estimate_curvature(ordered, given, progress); });
   const auto start = std::chrono::steady_clock::now();
   given.validate();
   report_progress(progress, 0);

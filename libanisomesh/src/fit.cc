@@ -5,6 +5,7 @@
 #include <string>
 
 #include "anisomesh/errors.hh"
+#include "canonical_copy.hh"
 #include "fit_state.hh"
 
 namespace anisomesh {
@@ -19,6 +20,11 @@ void FitOptions::validate() const {
 
 FitReport fit_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& result, const FitOptions& options,
                        const Progress& progress) {
+  if (!surface.canonical_copy())
+    return detail::change_in_canonical_order(surface, result,
+                                             [&](const SurfaceRef& ordered, OpenMesh::PolyMesh& work) {
+                                               return fit_vertices(ordered, work, options, progress);
+                                             });
   const auto start = std::chrono::steady_clock::now();
   options.validate();
   const detail::FitInput input(surface);

@@ -5,6 +5,7 @@
 
 #include "anisomesh/errors.hh"
 #include "anisomesh/properties.hh"
+#include "canonical_copy.hh"
 #include "numerics/tensor2d.hh"
 #include "patch_map.hh"
 #include "patch_of.hh"
@@ -88,6 +89,9 @@ void write_texture_coordinates(OpenMesh::TriConnectivity& mesh, const std::vecto
 }  // namespace
 
 FlattenReport flatten(const SurfaceRef& surface, const Progress& progress) {
+  if (!surface.canonical_copy())
+    return detail::in_canonical_order(surface,
+                                      [&](const SurfaceRef& ordered) { return flatten(ordered, progress); });
   const auto start = std::chrono::steady_clock::now();
   auto& mesh = surface.connectivity();
   require_property(mesh, property::normal);  // before the work, not after it

@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "anisomesh/lines.hh"
+#include "canonical_copy.hh"
 #include "intrinsic_order.hh"
 #include "line_placement.hh"
 #include "make_domain.hh"
@@ -171,6 +172,10 @@ std::vector<Candidate> SamplePlacement::random_candidates() {
 
 IsotropicReport place_isotropic_samples(const SurfaceRef& surface, const TraceOptions& options,
                                         const Progress& progress) {
+  if (!surface.canonical_copy())
+    return detail::in_canonical_order(surface, [&](const SurfaceRef& ordered) {
+      return place_isotropic_samples(ordered, options, progress);
+    });
   const auto start = std::chrono::steady_clock::now();
   options.validate();
   LineNetwork network = read_lines(surface);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "anisomesh/errors.hh"
+#include "canonical_copy.hh"
 #include "compare_parts.hh"
 #include "numerics/hausdorff.hh"
 #include "patch_moves.hh"
@@ -84,6 +85,11 @@ void MaxErrorOptions::validate() const {
 MaxErrorReport bound_error(const SurfaceRef& surface, OpenMesh::PolyMesh& result,
                            const MaxErrorOptions& options, const BalanceOptions& balance,
                            const FitOptions& fit, const Progress& progress) {
+  if (!surface.canonical_copy())
+    return detail::change_in_canonical_order(
+        surface, result, [&](const SurfaceRef& ordered, OpenMesh::PolyMesh& work) {
+          return bound_error(ordered, work, options, balance, fit, progress);
+        });
   const auto start = std::chrono::steady_clock::now();
   options.validate();
   balance.validate();

@@ -8,6 +8,7 @@
 
 #include "anisomesh/errors.hh"
 #include "anisomesh/properties.hh"
+#include "canonical_copy.hh"
 #include "drawing.hh"
 #include "feature_tolerance.hh"
 #include "joining.hh"
@@ -131,6 +132,10 @@ void MeshOptions::validate() const {
 
 OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& options, MeshReport* report,
                                   const Progress& progress) {
+  if (!surface.canonical_copy())
+    return detail::make_in_canonical_order(surface, [&](const SurfaceRef& ordered) {
+      return build_polygons(ordered, options, report, progress);
+    });
   return detail::attempt_polygons(
              surface, options, [](size_t, size_t) { return true; }, report, progress)
       .mesh;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "anisomesh/features.hh"
+#include "canonical_copy.hh"
 #include "numerics/arrangement.hh"
 
 namespace anisomesh::detail {
@@ -149,7 +150,7 @@ void Builder::connect(int a, int b, EdgeKind kind, int tag) {
   const bool followed = arrangement_.insert_segment(a, b, static_cast<int>(kind), tag);
   // A line cut short there is trimmed like any other that ends in the middle of nowhere.
   if (!followed && (kind == EdgeKind::border || kind == EdgeKind::feature))
-    throw CannotProcess("edge " + std::to_string(-1 - tag) +
+    throw CannotProcess("edge " + std::to_string(given_number(surface_, EdgeHandle(-1 - tag))) +
                         " of the border or a feature cannot be followed in the parameter plane; the "
                         "parameterization overlaps or is degenerate there");
 }

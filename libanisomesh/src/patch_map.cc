@@ -52,6 +52,11 @@ BorderFrame border_frame(const Patch& patch, const std::vector<Vec2d>& map) {
   return frame;
 }
 
+std::string where(const Patch& patch, int triangle) {
+  const Vec3d& p = patch.points[static_cast<size_t>(patch.triangles[static_cast<size_t>(triangle)][0])];
+  return "at (" + std::to_string(p[0]) + ", " + std::to_string(p[1]) + ", " + std::to_string(p[2]) + ")";
+}
+
 }  // namespace
 
 std::vector<Vec2d> valid_map(const Patch& patch, FlattenReport& report, const Progress& progress) {
@@ -73,7 +78,7 @@ std::vector<Vec2d> valid_map(const Patch& patch, FlattenReport& report, const Pr
   throw CannotProcess(
       "no one-to-one conformal map of the patch was found: " + std::to_string(invalid.size()) +
       " triangle(s) stay flipped or too small for double precision" +
-      (invalid.empty() ? std::string() : ", the first is face " + std::to_string(invalid.front())) +
+      (invalid.empty() ? std::string() : ", the first one " + where(patch, invalid.front())) +
       "; cut long features off, or the patch into shorter ones");
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "anisomesh/errors.hh"
+#include "canonical_copy.hh"
 
 namespace anisomesh::detail {
 
@@ -30,14 +31,16 @@ size_t count_components(const OpenMesh::TriConnectivity& mesh) {
   return components;
 }
 
-void refuse_loose_vertices(const OpenMesh::TriConnectivity& mesh) {
+void refuse_loose_vertices(const SurfaceRef& surface) {
+  const auto& mesh = surface.connectivity();
   for (const auto v : mesh.all_vertices()) {
     if (mesh.is_isolated(v))
-      throw CannotProcess("vertex " + std::to_string(v.idx()) + " belongs to no face; remove such vertices");
+      throw CannotProcess("vertex " + std::to_string(given_number(surface, v)) +
+                          " belongs to no face; remove such vertices");
     int gaps = 0;
     for (const auto h : mesh.voh_range(v)) gaps += h.is_boundary() ? 1 : 0;
     if (gaps > 1)
-      throw CannotProcess("vertex " + std::to_string(v.idx()) +
+      throw CannotProcess("vertex " + std::to_string(given_number(surface, v)) +
                           " joins parts of the surface that share nothing else there (it has " +
                           std::to_string(gaps) + " borders); split it");
   }
@@ -65,7 +68,7 @@ std::vector<std::vector<int>> border_loops(const OpenMesh::TriConnectivity& mesh
 
 Patch patch_of(const SurfaceRef& surface) {
   const auto& mesh = surface.connectivity();
-  refuse_loose_vertices(mesh);
+  refuse_loose_vertices(surface);
   const size_t components = count_components(mesh);
   auto loops = border_loops(mesh);
   const long euler = static_cast<long>(mesh.n_vertices()) - static_cast<long>(mesh.n_edges()) +

@@ -7,6 +7,7 @@
 #include "anisomesh/errors.hh"
 #include "anisomesh/flatten.hh"
 #include "anisomesh/properties.hh"
+#include "canonical_copy.hh"
 #include "numerics/tensor2d.hh"
 #include "numerics/tensor3d.hh"
 #include "surface_field.hh"
@@ -166,6 +167,9 @@ void SmoothingOptions::validate() const {
 
 SmoothingReport smooth_tensors(const SurfaceRef& surface, const SmoothingOptions& options,
                                const Progress& progress) {
+  if (!surface.canonical_copy())
+    return detail::in_canonical_order(
+        surface, [&](const SurfaceRef& ordered) { return smooth_tensors(ordered, options, progress); });
   const auto start = std::chrono::steady_clock::now();
   options.validate();
   SmoothingReport report = is_flattened(surface) ? smooth_in_plane(surface, options, progress)

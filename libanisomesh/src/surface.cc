@@ -63,9 +63,17 @@ SurfaceRef::SurfaceRef(OpenMesh::TriConnectivity& connectivity, std::vector<Vec3
 
 Vec3d position(const SurfaceRef& surface, const SurfacePoint& point) {
   const auto corners = surface.corners(point.face);
-  return point.barycentric[0] * surface.point(corners.vertex[0]) +
-         point.barycentric[1] * surface.point(corners.vertex[1]) +
-         point.barycentric[2] * surface.point(corners.vertex[2]);
+  const Vec3d a = point.barycentric[0] * surface.point(corners.vertex[0]),
+              b = point.barycentric[1] * surface.point(corners.vertex[1]),
+              c = point.barycentric[2] * surface.point(corners.vertex[2]);
+  // Rounded alike with whichever corner the face begins: the smallest and the largest first.
+  Vec3d sum;
+  for (size_t k = 0; k < 3; ++k) {
+    const double low = std::min({a[k], b[k], c[k]}), high = std::max({a[k], b[k], c[k]});
+    const double middle = std::max(std::min(a[k], b[k]), std::min(std::max(a[k], b[k]), c[k]));
+    sum[k] = low + high + middle;
+  }
+  return sum;
 }
 
 }  // namespace anisomesh

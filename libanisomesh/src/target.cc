@@ -8,6 +8,7 @@
 #include "anisomesh/flatten.hh"
 #include "anisomesh/properties.hh"
 #include "anisomesh/remesh.hh"
+#include "canonical_copy.hh"
 #include "epsilon_search.hh"
 #include "numerics/tensor2d.hh"
 #include "numerics/tensor3d.hh"
@@ -104,6 +105,10 @@ void TargetOptions::validate() const {
 OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions& trace,
                                   const MeshOptions& mesh, const TargetOptions& target,
                                   TraceAndMeshReport* report, const Progress& progress) {
+  if (!surface.canonical_copy())
+    return detail::in_canonical_order(surface, [&](const SurfaceRef& ordered) {
+      return trace_and_mesh(ordered, trace, mesh, target, report, progress);
+    });
   const auto start = std::chrono::steady_clock::now();
   target.validate();
   trace.validate();

@@ -5,6 +5,7 @@
 
 #include "anisomesh/lines.hh"
 #include "anisomesh/properties.hh"
+#include "canonical_copy.hh"
 #include "line_placement.hh"
 #include "line_relaxation.hh"
 #include "make_domain.hh"
@@ -55,6 +56,9 @@ void TraceOptions::validate() const {
 }
 
 TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& given, const Progress& progress) {
+  if (!surface.canonical_copy())
+    return detail::in_canonical_order(
+        surface, [&](const SurfaceRef& ordered) { return trace_lines(ordered, given, progress); });
   const auto start = std::chrono::steady_clock::now();
   given.validate();
   TraceOptions options = given;

@@ -8,6 +8,7 @@
 #include "anisomesh/flatten.hh"
 #include "anisomesh/properties.hh"
 #include "anisomesh/smoothing.hh"
+#include "canonical_copy.hh"
 #include "chart_field.hh"
 #include "numerics/tensor2d.hh"
 #include "surface_umbilics.hh"
@@ -123,6 +124,9 @@ SurfaceUmbilics umbilics_in_charts(const SurfaceRef& surface) {
 }  // namespace
 
 UmbilicReport find_umbilics(const SurfaceRef& surface) {
+  if (!surface.canonical_copy())
+    return detail::in_canonical_order(surface,
+                                      [&](const SurfaceRef& ordered) { return find_umbilics(ordered); });
   const auto start = std::chrono::steady_clock::now();
   auto& mesh = surface.connectivity();
   const auto found =

@@ -12,6 +12,10 @@ namespace anisomesh {
 using OpenMesh::Vec2d;
 using OpenMesh::Vec3d;
 
+namespace detail {
+class CanonicalCopy;
+}
+
 /// A non-owning view of a triangle mesh, like std::span: the mesh's own connectivity and a copy of its points
 /// in double.
 ///
@@ -46,7 +50,12 @@ class SurfaceRef {
              connectivity_->from_vertex_handle(first)}};
   }
 
+  /// For the library alone: what this is a view of where elements are numbered by the shape of the surface;
+  /// none for a mesh of the caller's.
+  const detail::CanonicalCopy* canonical_copy() const { return canonical_copy_; }
+
  private:
+  friend class detail::CanonicalCopy;
   SurfaceRef(OpenMesh::TriConnectivity& connectivity, std::vector<Vec3d> points);
 
   template <class TriMesh>
@@ -63,6 +72,7 @@ class SurfaceRef {
   OpenMesh::TriConnectivity* connectivity_;
   std::vector<Vec3d> points_;
   double diagonal_ = 0;
+  const detail::CanonicalCopy* canonical_copy_ = nullptr;
 };
 
 /// A point on the surface: a face and barycentric coordinates with respect to SurfaceRef::corners(face),
