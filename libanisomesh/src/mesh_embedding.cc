@@ -45,6 +45,8 @@ MeshEmbedding::MeshEmbedding(const SurfaceRef& surface, const Overlay& overlay, 
     normals_.push_back(length > 0 ? normal / length : normal);
   }
   pinned_.resize(normals_.size());
+  changed_.assign(overlay.points.size(), 0);
+  stuck_.assign(overlay.points.size(), -1);
   for (const auto v : surface.connectivity().vertices()) surface_points_.push_back(surface.point(v));
   add_samples(surface, overlay, network);
 }
@@ -94,17 +96,20 @@ bool MeshEmbedding::collapse(VertexHandle gone, VertexHandle keep, Care care) {
   const HalfedgeHandle h = mesh_.find_halfedge(gone, keep);
   if (!h.is_valid() || !is_topology_kept(h)) return false;
   if (care != Care::topology && !is_shape_kept(h, care)) return false;
-  lay_flat(gone);
-  if (!is_surface_kept(gone, keep, care)) return false;
+  if (laid_flat_ != gone) lay_flat(gone);
+  if (!is_surface_kept(keep, care)) return false;
   join(h);
   return true;
 }
 
 // The star of the vertex that goes is laid flat.
 void MeshEmbedding::join(HalfedgeHandle h) {
+  laid_flat_ = VertexHandle();
   const VertexHandle gone = mesh_.from_vertex_handle(h), keep = mesh_.to_vertex_handle(h);
   for (const auto f : mesh_.vf_range(gone)) pinned_[at(f.idx())].clear();
   mesh_.collapse(h);
+  changed_[at(keep.idx())] = ++step_;
+  for (const auto w : mesh_.vv_range(keep)) changed_[at(w.idx())] = step_;
   pin_again(around(keep));
   for (const auto f : mesh_.vf_range(keep)) {
     auto v = mesh_.cfv_begin(f);
@@ -116,12 +121,24 @@ void MeshEmbedding::join(HalfedgeHandle h) {
   }
 }
 
+// Whether nothing has changed since then that says whether the vertex can go.
+bool MeshEmbedding::is_as_at(int step, VertexHandle v) const {
+  if (changed_[at(v.idx())] > step) return false;
+  for (const auto w : mesh_.vv_range(v))
+    if (changed_[at(w.idx())] > step) return false;
+  return true;
+}
+
 bool MeshEmbedding::straighten(int a, int node, int b) {
   const VertexHandle from(node);
+  if (stuck_[at(node)] >= 0 && is_as_at(stuck_[at(node)], from)) return false;
   const auto distance = [&](int n) { return (mesh_.point(VertexHandle(n)) - mesh_.point(from)).sqrnorm(); };
   if (distance(b) < distance(a)) std::swap(a, b);
-  return collapse(from, VertexHandle(a), Care::turning) || collapse(from, VertexHandle(b), Care::turning) ||
-         cut_corner(VertexHandle(a), from, VertexHandle(b));
+  if (collapse(from, VertexHandle(a), Care::turning) || collapse(from, VertexHandle(b), Care::turning) ||
+      cut_corner(VertexHandle(a), from, VertexHandle(b)))
+    return true;
+  stuck_[at(node)] = step_;
+  return false;
 }
 
 // The triangle that the chain gives up holds no other vertex: what lies around it can be triangulated
@@ -185,8 +202,11 @@ bool MeshEmbedding::take_out(VertexHandle v, Care care) {
     for (auto& [key, w] : near) key = -lowest_cosine(v, w);
   std::sort(near.begin(), near.end());
   const size_t tried = care == Care::topology ? near.size() : std::min(near.size(), nearest_tried);
-  for (size_t i = 0; i < tried; ++i)
+  for (size_t i = 0; i < tried; ++i) {
+    if (care == Care::topology && !(near[i].first < 0))
+      break;  // this one turns a triangle over, and the rest
     if (collapse(v, near[i].second, care)) return true;
+  }
   return false;
 }
 
@@ -222,17 +242,8 @@ void MeshEmbedding::coarsen(const NetworkGraph& network, double tolerance,
         !network.fixed[at(v.idx())] && !is_kept(v))
       waiting.push_back(v.idx());
   std::vector<int> touched(mesh_.n_vertices(), -1);
-  // Steps at which the neighbours of a vertex changed, and at which it could not go: it need not be tried
-  // again before something within two edges of it is another.
-  std::vector<int> changed(mesh_.n_vertices(), 0), failed(mesh_.n_vertices(), -1);
-  const auto is_as_before = [&](VertexHandle v) {
-    const int last = failed[at(v.idx())];
-    if (changed[at(v.idx())] > last) return false;
-    for (const auto w : mesh_.vv_range(v))
-      if (changed[at(w.idx())] > last) return false;
-    return true;
-  };
-  int pass = 0, step = 0;
+  std::vector<int> failed(mesh_.n_vertices(), -1);  // the step; it need not be tried again before another
+  int pass = 0, tried = 0;
   for (const Care care : {Care::shape, Care::turning, Care::topology}) {
     std::fill(failed.begin(), failed.end(), -1);
     while (true) {
@@ -244,19 +255,15 @@ void MeshEmbedding::coarsen(const NetworkGraph& network, double tolerance,
           left.push_back(n);
           continue;
         }
-        ++step;
-        if (breathe && step % vertices_a_breath == 0) breathe();
-        std::vector<int> around;
-        if (!is_as_before(v)) {
+        if (breathe && ++tried % vertices_a_breath == 0) breathe();
+        if (failed[at(n)] < 0 || !is_as_at(failed[at(n)], v)) {
+          std::vector<int> around;
           for (const auto w : mesh_.vv_range(v)) around.push_back(w.idx());
           if (take_out(v, care)) {
-            for (const int w : around) {
-              touched[at(w)] = pass;
-              changed[at(w)] = step;
-            }
+            for (const int w : around) touched[at(w)] = pass;
             continue;
           }
-          failed[at(n)] = step;
+          failed[at(n)] = step_;
         }
         left.push_back(n);
       }

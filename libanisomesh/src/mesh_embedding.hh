@@ -99,15 +99,16 @@ class MeshEmbedding final : public Embedding {
   void lay_flat(OpenMesh::EdgeHandle e);
   std::vector<Candidate> placed(const std::vector<Candidate>& candidates) const;
   Landing land(const FlatStar::Point& x, const std::vector<Candidate>& candidates) const;
-  double agreement(const std::vector<Candidate>& candidates, bool vertices) const;
+  bool is_along(const std::vector<Candidate>& candidates, double least, bool vertices) const;
   std::vector<Candidate> fan_to(OpenMesh::VertexHandle keep) const;
-  bool is_surface_kept(OpenMesh::VertexHandle gone, OpenMesh::VertexHandle keep, Care care) const;
+  bool is_surface_kept(OpenMesh::VertexHandle keep, Care care) const;
   bool is_near(const std::vector<Candidate>& candidates) const;
   void add_points(OpenMesh::FaceHandle f);
   void pin_again(const std::vector<Candidate>& candidates);
   std::vector<Candidate> around(OpenMesh::VertexHandle keep) const;
   bool collapse(OpenMesh::VertexHandle gone, OpenMesh::VertexHandle keep, Care care);
   void join(OpenMesh::HalfedgeHandle h);
+  bool is_as_at(int step, OpenMesh::VertexHandle v) const;
   bool is_topology_kept(OpenMesh::HalfedgeHandle h);
   bool is_shape_kept(OpenMesh::HalfedgeHandle h, Care care) const;
   double cosine_to_surface(OpenMesh::VertexHandle a, OpenMesh::VertexHandle b,
@@ -126,6 +127,10 @@ class MeshEmbedding final : public Embedding {
   std::vector<Vec3d> surface_points_;                           ///< of its vertices
   double tolerance_ = std::numeric_limits<double>::infinity();  ///< only while coarsening
   FlatStar star_;                                               ///< only during a collapse
+  int step_ = 0;                                                ///< changes so far
+  std::vector<int> changed_;                                    ///< of each node: the last change of its star
+  std::vector<int> stuck_;                                      ///< where the chain could not be straightened
+  OpenMesh::VertexHandle laid_flat_;  ///< what the star is around, if that is so still
 };
 
 }  // namespace anisomesh::detail

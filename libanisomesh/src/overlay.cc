@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "anisomesh/features.hh"
+#include "line_places.hh"
 #include "numerics/arrangement.hh"
 #include "section_path.hh"
 
@@ -174,8 +175,7 @@ void Drawing::draw_lines() {
     const int kind = static_cast<int>(line.kind == LineKind::min ? EdgeKind::min : EdgeKind::max);
     Place first, before;
     int first_node = -1, before_node = -1;
-    for (const SurfacePoint& point : line.points) {
-      const Place place = place_of(arrays_, point);
+    for (const Place& place : places_of(arrays_, surface_, line, overlay_.left_out)) {
       const int node = node_at(place, Origin::line, false);
       if (before_node >= 0) connect(before, before_node, place, node, kind);
       if (first_node < 0) {

@@ -23,7 +23,9 @@ struct Overlay {
     int kind;                 ///< EdgeKind
   };
   std::vector<Drawn> edges;  ///< those that are part of a line, a feature or the border; each once
-  size_t crossings = 0;      ///< of two lines
+  std::vector<int>
+      left_out;          ///< the face of each point of a line that is no node, as the line is straight there
+  size_t crossings = 0;  ///< of two lines
 };
 
 /// Crossings are found once, by exact predicates in the barycentric coordinates of the triangle they lie in.

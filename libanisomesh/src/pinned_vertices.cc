@@ -41,6 +41,7 @@ void MeshEmbedding::add_samples(const SurfaceRef& surface, const Overlay& overla
       if (n < vertices_ && (normals_[t] | node_normals_[at(n)]) < sharp_cosine) on_curve[at(n)] = 1;
   std::vector<int> parts(surface.connectivity().n_faces(), 0);
   for (const int f : overlay.faces) ++parts[at(f)];
+  for (const int f : overlay.left_out) parts[at(f)] += 2;  // as many as there would be with that point
   for (size_t t = 0; t < overlay.triangles.size(); ++t) {
     const FaceHandle face(overlay.faces[t]);
     const auto corners = surface.corners(face);
@@ -62,6 +63,7 @@ void MeshEmbedding::add_samples(const SurfaceRef& surface, const Overlay& overla
 
 // As a fan around the vertex whose angles are scaled to a full turn, or to half of one on the border.
 void MeshEmbedding::lay_flat(VertexHandle v) {
+  laid_flat_ = v;
   star_.ring.clear();
   const HalfedgeHandle start =
       mesh_.halfedge_handle(v);  // on the border OpenMesh keeps the border halfedge here
@@ -106,6 +108,7 @@ void MeshEmbedding::lay_flat(VertexHandle v) {
 
 // What is pinned in the two triangles at an edge keeps its place in them laid flat.
 void MeshEmbedding::lay_flat(OpenMesh::EdgeHandle e) {
+  laid_flat_ = VertexHandle();
   const auto h = mesh_.halfedge_handle(e, 0), o = mesh_.halfedge_handle(e, 1);
   const VertexHandle a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
   const VertexHandle c = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)),
@@ -180,27 +183,23 @@ MeshEmbedding::Landing MeshEmbedding::land(const FlatStar::Point& x,
   return best;
 }
 
-// The lowest cosine of a triangle to the surface at a sample that would lie in it.
-double MeshEmbedding::agreement(const std::vector<Candidate>& candidates, bool vertices) const {
+// Whether the cosine of each triangle to the surface at the samples that would lie in it is above `least`.
+bool MeshEmbedding::is_along(const std::vector<Candidate>& candidates, double least, bool vertices) const {
   const auto flat = placed(candidates);
-  double lowest = 1;
-  for (const FlatStar::Point& x : star_.points) {
+  return std::all_of(star_.points.begin(), star_.points.end(), [&](const FlatStar::Point& x) {
     const bool is_vertex = x.vertex < vertices_;
-    if (is_vertex && !vertices) continue;
+    if (is_vertex && !vertices) return true;
     const Landing landing = land(x, flat);
-    if (!landing.candidate) continue;
+    if (!landing.candidate) return true;
     const auto& n = landing.candidate->node;
     const Vec3d &p = mesh_.point(VertexHandle(n[0])), &q = mesh_.point(VertexHandle(n[1])),
                 &r = mesh_.point(VertexHandle(n[2]));
     const Vec3d normal = cross(q - p, r - p);
+    const Vec3d& surface =
+        is_vertex ? node_normals_[at(x.vertex)] : samples_[at(x.vertex - vertices_)].normal;
     const double length = normal.norm();
-    const double cosine = length > 0 ? (normal | (is_vertex ? node_normals_[at(x.vertex)]
-                                                            : samples_[at(x.vertex - vertices_)].normal)) /
-                                           length
-                                     : -1;
-    lowest = std::min(lowest, cosine);
-  }
-  return lowest;
+    return length > 0 && (normal | surface) / length > least;
+  });
 }
 
 // The triangles that would take the place of the star if all of it were joined to `keep`.
@@ -230,12 +229,12 @@ bool MeshEmbedding::is_near(const std::vector<Candidate>& candidates) const {
 
 // Whether the star, all of it joined to `keep`, is still along the surface and near to it. Where a triangle
 // was turned over before, none may be afterwards: in a flat place nothing else would tell.
-bool MeshEmbedding::is_surface_kept(VertexHandle gone, VertexHandle keep, Care care) const {
-  if (!star_.has_samples && care != Care::topology && std::isinf(tolerance_)) return true;
+bool MeshEmbedding::is_surface_kept(VertexHandle keep, Care care) const {
+  const bool last = care == Care::topology;
+  if (!star_.has_samples && !last && std::isinf(tolerance_)) return true;
   const auto fan = fan_to(keep);
-  if (star_.has_samples && care != Care::topology && agreement(fan, false) <= least_agreement) return false;
-  if (care == Care::topology && !(agreement(fan, true) > 0 && lowest_cosine(gone, keep) > 0)) return false;
-  return std::isinf(tolerance_) || is_near(fan);
+  if (!std::isinf(tolerance_) && !is_near(fan)) return false;
+  return last ? is_along(fan, 0, true) : !star_.has_samples || is_along(fan, least_agreement, false);
 }
 
 std::vector<MeshEmbedding::Candidate> MeshEmbedding::around(VertexHandle keep) const {
@@ -265,6 +264,8 @@ void MeshEmbedding::flip_edge(OpenMesh::EdgeHandle e) {
   const VertexHandle c = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h));
   pinned_[at(mesh_.face_handle(h).idx())].clear();
   pinned_[at(mesh_.face_handle(o).idx())].clear();
+  ++step_;
+  for (const auto& entry : star_.ring) changed_[at(entry.first)] = step_;
   mesh_.flip(e);
   pin_again(around(c));
 }

@@ -1,6 +1,7 @@
 #include "polygon_adjacency.hh"
 
 #include <algorithm>
+#include <utility>
 
 #include "region_layout.hh"
 
@@ -11,43 +12,55 @@ namespace {
 using Polygon = std::vector<int>;
 size_t at(int i) { return static_cast<size_t>(i); }
 
+std::uint64_t key_of(int a, int b) {
+  return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint64_t>(std::max(a, b));
+}
+
 }  // namespace
 
 PolygonAdjacency::PolygonAdjacency(const std::vector<Polygon>& polygons, size_t n_nodes,
-                                   const std::function<bool(int, int)>& may_cross)
-    : faces_at_(n_nodes, 0) {
-  struct Side {
-    int low, high;
-    size_t place;
-    int polygon;
-  };
-  std::vector<Side> sides;
-  for (size_t p = 0; p < polygons.size(); ++p) {
-    first_.push_back(neighbors_.size());
-    count(polygons[p], 1);
-    for (size_t i = 0; i < polygons[p].size(); ++i) {
-      const int from = polygons[p][i], to = polygons[p][(i + 1) % polygons[p].size()];
-      sides.push_back({std::min(from, to), std::max(from, to), neighbors_.size(), static_cast<int>(p)});
-      neighbors_.push_back(-1);
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
-    if (x.low != y.low) return x.low < y.low;
-    return x.high != y.high ? x.high < y.high : x.place < y.place;
-  });
-  sides_.reserve(sides.size());
-  for (const Side& s : sides) sides_.push_back({s.low, s.high});
-  for (size_t i = 0; i + 1 < sides.size(); ++i) {
-    const Side &x = sides[i], &y = sides[i + 1];
-    if (x.low != y.low || x.high != y.high || !may_cross(x.low, x.high)) continue;
-    neighbors_[x.place] = y.polygon;
-    neighbors_[y.place] = x.polygon;
+                                   std::function<bool(int, int)> may_cross)
+    : faces_at_(n_nodes, 0), may_cross_(std::move(may_cross)) {
+  sides_.reserve(2 * polygons.size());
+  for (size_t p = 0; p < polygons.size(); ++p) put_in(polygons, static_cast<int>(p));
+}
+
+void PolygonAdjacency::put_in(const std::vector<Polygon>& polygons, int polygon) {
+  const Polygon& corners = polygons[at(polygon)];
+  if (neighbors_.size() <= at(polygon)) neighbors_.resize(at(polygon) + 1);
+  neighbors_[at(polygon)].assign(corners.size(), -1);
+  count(corners, 1);
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const int from = corners[i], to = corners[(i + 1) % corners.size()];
+    auto& [first, second] = sides_[key_of(from, to)];
+    if (first.polygon >= 0 && second.polygon >= 0) continue;  // one too many: the topology will tell
+    (first.polygon < 0 ? first : second) = {polygon, i};
+    if (first.polygon < 0 || second.polygon < 0 || !may_cross_(from, to)) continue;
+    neighbors_[at(first.polygon)][first.corner] = second.polygon;
+    neighbors_[at(second.polygon)][second.corner] = first.polygon;
   }
 }
 
-bool PolygonAdjacency::are_joined(int a, int b) const {
-  return std::binary_search(sides_.begin(), sides_.end(), std::array<int, 2>{std::min(a, b), std::max(a, b)});
+void PolygonAdjacency::take_out(const std::vector<Polygon>& polygons, int polygon) {
+  const Polygon& corners = polygons[at(polygon)];
+  count(corners, -1);
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const auto found = sides_.find(key_of(corners[i], corners[(i + 1) % corners.size()]));
+    if (found == sides_.end()) continue;
+    auto& [first, second] = found->second;
+    if (second.polygon == polygon && second.corner == i) std::swap(first, second);
+    if (first.polygon != polygon || first.corner != i) continue;
+    first = second;
+    second = {};
+    if (first.polygon < 0)
+      sides_.erase(found);
+    else
+      neighbors_[at(first.polygon)][first.corner] = -1;
+  }
+  neighbors_[at(polygon)].clear();
 }
+
+bool PolygonAdjacency::are_joined(int a, int b) const { return sides_.count(key_of(a, b)) > 0; }
 
 void PolygonAdjacency::forbid_other_sides(RegionCorners& corners, const std::vector<Polygon>& polygons,
                                           const std::vector<int>& path) const {

@@ -1,7 +1,10 @@
 // Which polygon lies across which side, and the outline of several of them.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
+#include <unordered_map>
 #include <vector>
 
 #include "polygon_judge.hh"
@@ -13,12 +16,14 @@ class PolygonAdjacency {
   PolygonAdjacency() = default;
   /// Polygons as nodes of a network, counter-clockwise. Only sides that `may_cross`(node, node) allows count.
   PolygonAdjacency(const std::vector<std::vector<int>>& polygons, size_t n_nodes,
-                   const std::function<bool(int, int)>& may_cross);
+                   std::function<bool(int, int)> may_cross);
+
+  /// A polygon that is to change, or has: without corners it is beside nothing.
+  void take_out(const std::vector<std::vector<int>>& polygons, int polygon);
+  void put_in(const std::vector<std::vector<int>>& polygons, int polygon);
 
   /// The polygon across the side that begins at corner `side` of a polygon, or -1.
-  int neighbor(int polygon, size_t side) const {
-    return neighbors_[first_[static_cast<size_t>(polygon)] + side];
-  }
+  int neighbor(int polygon, size_t side) const { return neighbors_[static_cast<size_t>(polygon)][side]; }
   /// Whether the nodes are the ends of a side.
   bool are_joined(int a, int b) const;
   /// How many polygons meet at a node.
@@ -39,10 +44,15 @@ class PolygonAdjacency {
   void forbid_other_sides(RegionCorners& corners, const std::vector<std::vector<int>>& polygons,
                           const std::vector<int>& path) const;
 
-  std::vector<size_t> first_;
-  std::vector<std::array<int, 2>> sides_;  // lower node first, ascending
-  std::vector<int> neighbors_;
+  struct Side {
+    int polygon = -1;
+    size_t corner = 0;  // where it begins
+  };
+
+  std::unordered_map<std::uint64_t, std::array<Side, 2>> sides_;  // by their nodes
+  std::vector<std::vector<int>> neighbors_;
   std::vector<int> faces_at_;
+  std::function<bool(int, int)> may_cross_;
 };
 
 /// Polygons with indices into the corners instead of nodes; nodes that are no corners are left out.

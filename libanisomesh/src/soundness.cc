@@ -260,10 +260,8 @@ const std::vector<int>* Soundness::cheapest(const std::vector<std::vector<int>>&
 
 // The cheapest new partition of the polygon with one or two of its neighbours that is sound; where there is
 // none, of all that is around one of its corners, without that.
-bool Soundness::repair_one(int polygon, std::vector<Polygon>& polygons, const NetworkGraph& network,
-                           int max_degree, bool may_drop) const {
-  const PolygonAdjacency adjacency(polygons, network.graph.n_nodes(),
-                                   [&](int a, int b) { return !is_feature_edge(network, a, b); });
+bool Soundness::repair_one(int polygon, std::vector<Polygon>& polygons, PolygonAdjacency& adjacency,
+                           const NetworkGraph& network, int max_degree, bool may_drop) const {
   const auto neighbors = [&](int p) {
     std::vector<int> result;
     for (size_t i = 0; i < polygons[at(p)].size(); ++i)
@@ -286,14 +284,14 @@ bool Soundness::repair_one(int polygon, std::vector<Polygon>& polygons, const Ne
     best_path = cheapest(paths, adjacency, polygons, network, max_degree, true, best_pieces);
   }
   if (!best_path) return false;
-  for (size_t i = 0; i < best_path->size() || i < best_pieces.size(); ++i) {
-    if (i >= best_path->size())
-      polygons.push_back(best_pieces[i]);
-    else
-      polygons[at((*best_path)[i])] = i < best_pieces.size() ? best_pieces[i] : Polygon{};
+  std::vector<int> places = *best_path;
+  for (const int p : places) adjacency.take_out(polygons, p);
+  for (; places.size() < best_pieces.size(); polygons.emplace_back())
+    places.push_back(static_cast<int>(polygons.size()));
+  for (size_t i = 0; i < places.size(); ++i) {
+    polygons[at(places[i])] = i < best_pieces.size() ? best_pieces[i] : Polygon{};
+    adjacency.put_in(polygons, places[i]);
   }
-  polygons.erase(std::remove_if(polygons.begin(), polygons.end(), [](const Polygon& p) { return p.empty(); }),
-                 polygons.end());
   return true;
 }
 
@@ -302,16 +300,17 @@ std::vector<Polygon> Soundness::repair(std::vector<Polygon>& polygons, const Net
   std::vector<int> bad = unsound(polygons, network);
   for (int round = 0; round < max_repairs && !bad.empty(); ++round) {
     size_t repaired = 0;
-    // A repair may move polygons in the array, so each is found again by its corners.
-    std::vector<Polygon> waiting;
+    PolygonAdjacency adjacency(polygons, network.graph.n_nodes(),
+                               [&](int a, int b) { return !is_feature_edge(network, a, b); });
+    std::vector<Polygon> waiting;  // the repair of another may change one, which is then left alone
     waiting.reserve(bad.size());
     for (const int p : bad) waiting.push_back(polygons[at(p)]);
-    for (const Polygon& p : waiting) {
-      const auto place = std::find(polygons.begin(), polygons.end(), p);
-      if (place != polygons.end())
-        repaired +=
-            repair_one(static_cast<int>(place - polygons.begin()), polygons, network, max_degree, may_drop);
-    }
+    for (size_t i = 0; i < bad.size(); ++i)
+      if (polygons[at(bad[i])] == waiting[i])
+        repaired += repair_one(bad[i], polygons, adjacency, network, max_degree, may_drop);
+    const auto left =
+        std::remove_if(polygons.begin(), polygons.end(), [](const auto& p) { return p.empty(); });
+    polygons.erase(left, polygons.end());
     bad = unsound(polygons, network);
     if (repaired == 0) break;
   }

@@ -35,8 +35,8 @@ class Soundness {
                                    const std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
                                    int max_degree, bool may_drop,
                                    std::vector<std::vector<int>>& best_pieces) const;
-  bool repair_one(int polygon, std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
-                  int max_degree, bool may_drop) const;
+  bool repair_one(int polygon, std::vector<std::vector<int>>& polygons, PolygonAdjacency& adjacency,
+                  const NetworkGraph& network, int max_degree, bool may_drop) const;
 
   const SurfaceRef& surface_;
   const SurfaceLocator& locator_;
