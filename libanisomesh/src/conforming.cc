@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "numerics/convex_partition.hh"
+#include "rounding.hh"
 
 namespace anisomesh::detail {
 
@@ -18,6 +19,8 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 // Up to so many corners all partitions are tried (n^4 / 24 quads); beyond, the region is cut up first.
 constexpr size_t search_limit = 20;
+// A choice that is better only by rounding is no better than the one found first.
+constexpr double no_better = 1e-8;
 
 double turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -100,16 +103,16 @@ void Partition::solve(int i, int j) {
   if (!allowed_[key(i, j)]) return;
   for (int k = i + 1; k < j; ++k) {
     const double rest = best_[key(i, k)].cost + best_[key(k, j)].cost;
-    if (rest < choice.cost) {
+    if (rest < choice.cost - no_better) {
       const double cost = rest + judge_.triangle_cost(region_, i, k, j);
-      if (cost < choice.cost) choice = {cost, k, -1};
+      if (cost < choice.cost - no_better) choice = {cost, k, -1};
     }
     if (!quads_) continue;
     for (int l = k + 1; l < j; ++l) {
       const double others = best_[key(i, k)].cost + best_[key(k, l)].cost + best_[key(l, j)].cost;
-      if (others >= choice.cost) continue;
+      if (others >= choice.cost - no_better) continue;
       const double cost = others + judge_.quad_cost(region_, {i, k, l, j});
-      if (cost < choice.cost) choice = {cost, k, l};
+      if (cost < choice.cost - no_better) choice = {cost, k, l};
     }
   }
 }
@@ -163,15 +166,16 @@ std::vector<Piece> cut_convex(const RegionCorners& region) {
   return convex_partition({region.uv.begin(), region.uv.begin() + static_cast<std::ptrdiff_t>(region.loop)});
 }
 
-// Two parts of a quarter of the corners at least, by the shortest chord: that one leaves the surface least.
-std::vector<Piece> cut_in_two(const RegionCorners& region) {
-  const int n = static_cast<int>(region.loop), least = n / 4;
+// Two parts of so many corners at least, by the shortest chord: that one leaves the surface least.
+std::vector<Piece> cut_in_two(const RegionCorners& region, int least) {
+  const int n = static_cast<int>(region.loop);
   double shortest = std::numeric_limits<double>::infinity();
   int from = -1, to = -1;
   for (int i = 0; i < n; ++i)
     for (int j = i + least; j < n && n - (j - i) >= least; ++j) {
       const double squared = (region.position[at(j)] - region.position[at(i)]).sqrnorm();
-      if (squared >= shortest || region.is_forbidden(i, j) || !is_inner(region, i, j)) continue;
+      if (!is_surely_less(squared, shortest) || region.is_forbidden(i, j) || !is_inner(region, i, j))
+        continue;
       shortest = squared;
       from = i;
       to = j;
@@ -203,7 +207,7 @@ std::vector<Piece> cut_ears(const RegionCorners& region) {
         const Vec2d& p = region.uv[at(k)];
         if (turn(pa, pb, p) >= 0 && turn(pb, pc, p) >= 0 && turn(pc, pa, p) >= 0) quality -= 10;
       }
-      if (quality > best_quality) {
+      if (quality > best_quality + no_better) {
         best_quality = quality;
         best = i;
       }
@@ -230,8 +234,12 @@ std::vector<Piece> partition_region(const RegionCorners& region, const PolygonJu
 
   const bool large = region.loop > search_limit;
   if (large || options.max_degree == 0) {
-    std::vector<Piece> pieces = cut_convex(region), result;
-    if (pieces.size() < 2 && large) pieces = cut_in_two(region);
+    std::vector<Piece> pieces, result;
+    // In a flat place corners are straight but for rounding, and a convex partition would turn on that.
+    if (options.max_degree != 0)
+      for (int least = static_cast<int>(region.loop) / 4; least >= 2 && pieces.empty(); least /= 2)
+        pieces = cut_in_two(region, least);
+    if (pieces.size() < 2) pieces = cut_convex(region);
     if (pieces.empty()) pieces = cut_ears(region);
     if (pieces.size() > 1) {
       for (const Piece& piece : pieces)
@@ -295,7 +303,7 @@ std::vector<Piece> join_triangles(const RegionCorners& region, std::vector<Piece
       Piece ring = joined(pieces[first], pieces[twin->second], edge.first, edge.second);
       if (!is_simple(ring) || !acceptable(region, ring, options)) continue;
       const double gain = costs[first] + costs[twin->second] - cost_of(ring);
-      if (gain <= best_gain) continue;
+      if (gain <= best_gain + no_better) continue;
       best_gain = gain;
       best_first = first;
       best_second = twin->second;

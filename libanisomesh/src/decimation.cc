@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "rounding.hh"
+
 namespace anisomesh::detail {
 
 namespace {
@@ -139,13 +141,15 @@ void Decimator::order_chain(const std::vector<int>& chain, std::vector<std::pair
     const Vec3d &a = network_.positions[at(chain[at(r.begin)])],
                 &b = network_.positions[at(chain[at(r.end)])];
     int split = (r.begin + r.end) / 2;
-    double farthest = -1;
+    double farthest = 0;
+    const double nothing =
+        kRounding * (b - a).norm();  // where the surface is flat the middle is the farthest
     for (int i = r.begin + 1; i < r.end; ++i) {
       const int node = chain[at(i)];
       const Vec3d off = off_segment(network_.positions[at(node)], a, b);
       // A line may turn within the surface at will; the border and features have a shape of their own.
       const double d = line ? std::abs(off | network_.normals[at(node)]) : off.norm();
-      if (d > farthest) {
+      if (d > farthest + nothing) {
         farthest = d;
         split = i;
       }
@@ -222,7 +226,7 @@ double Decimator::continuation(int edge, int node) const {
     if (e == edge || graph_.edge(e).kind != graph_.edge(edge).kind) return;
     const Vec3d onward = towards(node, graph_.other(e, node));
     const double cosine = (along | onward) / (along.norm() * onward.norm());
-    if (cosine > best) {
+    if (is_surely_less(best, cosine)) {
       best = cosine;
       result = length(e);
     }
@@ -268,7 +272,7 @@ bool Decimator::contract(int keep, int gone, int edge) {
 }
 
 size_t Decimator::contract_short_edges() {
-  std::vector<std::pair<double, int>> candidates;
+  std::vector<int> short_edges;
   const auto is_short = [&](int e) {
     const auto& edge = graph_.edge(e);
     if (!network_.planar && length(e) < options_.least_length) return true;
@@ -277,7 +281,13 @@ size_t Decimator::contract_short_edges() {
     return length(e) < options_.merge_fraction * reference;
   };
   for (int e = 0; e < static_cast<int>(graph_.n_edges()); ++e)
-    if (graph_.edge(e).alive && is_short(e)) candidates.emplace_back(length(e), e);
+    if (graph_.edge(e).alive && is_short(e)) short_edges.push_back(e);
+  std::vector<double> lengths;
+  lengths.reserve(short_edges.size());
+  for (const int e : short_edges) lengths.push_back(length(e));
+  lengths = in_steps(std::move(lengths));
+  std::vector<std::pair<double, int>> candidates;
+  for (size_t i = 0; i < lengths.size(); ++i) candidates.emplace_back(lengths[i], short_edges[i]);
   std::sort(candidates.begin(), candidates.end());
   size_t contracted = 0;
   for (const auto& candidate : candidates) {

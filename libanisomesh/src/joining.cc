@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -19,6 +20,7 @@ size_t at(int i) { return static_cast<size_t>(i); }
 // A line is worth something: to take a piece of it out, the rest must be this much better.
 constexpr double line_worth = 0.2;
 constexpr double least_gain = 0.02;
+constexpr double gain_step = 1e-6;  // gains that differ by less count as the same, whatever rounding does
 constexpr int max_rounds = 4;
 constexpr double folded_cost = 500;  // above it the judge has found a fold
 
@@ -129,6 +131,7 @@ void Pairing::evaluate(Candidate& candidate) const {
   std::vector<Polygon> after = best_partition(corners, judge_, true);
   const double cost = judge_.cost(corners, after);
   candidate.gain = judge_.cost(corners, before) - cost - worth_of_lines(corners, before, after);
+  candidate.gain = gain_step * std::round(candidate.gain / gain_step);
   if (after.empty() || after.size() >= before.size() || cost > folded_cost) candidate.gain = 0;
   for (const Polygon& p : after)
     for (size_t i = 0; i < p.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "anisomesh/errors.hh"
+#include "rounding.hh"
 
 namespace anisomesh::detail {
 
@@ -87,7 +88,7 @@ bool MeshEmbedding::is_shape_kept(HalfedgeHandle h, Care care) const {
     const double old = cross(mesh_.point(a) - mesh_.point(gone), mesh_.point(b) - mesh_.point(gone)).norm();
     if (!(length > least_area * longest) && !(moved < negligible * longest && length > thinner * old))
       return false;
-    if (care == Care::shape && length < least_shape * longest && length < old) return false;
+    if (care == Care::shape && length < least_shape * longest && is_surely_less(length, old)) return false;
   }
   return true;
 }
@@ -133,7 +134,7 @@ bool MeshEmbedding::straighten(int a, int node, int b) {
   const VertexHandle from(node);
   if (stuck_[at(node)] >= 0 && is_as_at(stuck_[at(node)], from)) return false;
   const auto distance = [&](int n) { return (mesh_.point(VertexHandle(n)) - mesh_.point(from)).sqrnorm(); };
-  if (distance(b) < distance(a)) std::swap(a, b);
+  if (is_surely_less(distance(b), distance(a))) std::swap(a, b);
   if (collapse(from, VertexHandle(a), Care::turning) || collapse(from, VertexHandle(b), Care::turning) ||
       cut_corner(VertexHandle(a), from, VertexHandle(b)))
     return true;
@@ -196,10 +197,15 @@ void MeshEmbedding::drop(int node) {
 }
 
 bool MeshEmbedding::take_out(VertexHandle v, Care care) {
+  std::vector<VertexHandle> beside;
+  for (const auto w : mesh_.vv_range(v)) beside.push_back(w);
+  std::vector<double> keys;
+  for (const auto w : beside)  // something will be turned over at last: as little as can be
+    keys.push_back(care == Care::topology ? -lowest_cosine(v, w)
+                                          : (mesh_.point(w) - mesh_.point(v)).sqrnorm());
+  keys = in_steps(std::move(keys));
   std::vector<std::pair<double, VertexHandle>> near;
-  for (const auto w : mesh_.vv_range(v)) near.emplace_back((mesh_.point(w) - mesh_.point(v)).sqrnorm(), w);
-  if (care == Care::topology)  // something will be turned over: as little as can be
-    for (auto& [key, w] : near) key = -lowest_cosine(v, w);
+  for (size_t i = 0; i < keys.size(); ++i) near.emplace_back(keys[i], beside[i]);
   std::sort(near.begin(), near.end());
   const size_t tried = care == Care::topology ? near.size() : std::min(near.size(), nearest_tried);
   for (size_t i = 0; i < tried; ++i) {

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "numerics/bvh.hh"
+#include "rounding.hh"
 
 namespace anisomesh::detail {
 
@@ -16,7 +17,9 @@ SurfacePoint NearLocator::locate(const Vec2d&, const Vec3d& place, OpenMesh::Fac
                 &c = mesh_.corner_point(face, 2);
     const Vec3d w = closest_barycentric(place, a, b, c);
     const double squared = (w[0] * a + w[1] * b + w[2] * c - place).sqrnorm();
-    if (!(squared < least)) return false;
+    // Of faces as near but for rounding, as at an edge, the one that is met first.
+    const double size = kRounding * kRounding * ((b - a).sqrnorm() + (c - a).sqrnorm());
+    if (!(squared < (1 - kRounding) * least - size)) return false;
     least = squared;
     best = {OpenMesh::FaceHandle(face), w};
     return true;

@@ -6,6 +6,7 @@
 
 #include "mesh_embedding.hh"
 #include "numerics/bvh.hh"
+#include "rounding.hh"
 
 namespace anisomesh::detail {
 
@@ -174,7 +175,7 @@ MeshEmbedding::Landing MeshEmbedding::land(const FlatStar::Point& x,
                           cross2(c[0] - x.place, c[1] - x.place)) /
                     candidate.area;
     const double depth = std::min({w[0], w[1], w[2]});
-    if (depth <= deepest) continue;
+    if (depth <= deepest + kRounding) continue;  // on a side: the first
     deepest = depth;
     best = {&candidate, w};
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rounding.hh"
+
 namespace anisomesh::detail {
 
 namespace {
@@ -156,13 +158,15 @@ double PolygonJudge::quad_cost(const RegionCorners& region, const std::array<int
   cost += averse * against(region, {quad[0], quad[1], quad[2], quad[3]}, area);
   cost += shape_weight * shape;
   // Whoever draws it will use the shorter diagonal.
-  const bool second = (p[1] - p[3]).sqrnorm() < (p[0] - p[2]).sqrnorm();
+  const bool second = is_surely_less((p[1] - p[3]).sqrnorm(), (p[0] - p[2]).sqrnorm());
   const size_t first_corner = second ? 1 : 0;
   const Vec3d &a = p[first_corner], &c = p[first_corner + 2];
   const Vec3d &b = p[(first_corner + 1) % 4], &d = p[(first_corner + 3) % 4];
   const Vec3d n1 = cross(b - a, c - a), n2 = cross(c - a, d - a);
+  // Where three corners lie on a line, rounding decides which way their triangle faces.
+  const bool faces = std::min(n1.sqrnorm(), n2.sqrnorm()) > kRounding * kRounding * longest * longest;
   const double bend = std::atan2(cross(n1, n2).norm(), n1 | n2);
-  if (bend > options_.max_bend_degrees * degree) cost += bent;
+  if (faces && bend > options_.max_bend_degrees * degree) cost += bent;
   cost += error_cost(chord_error(region, quad[first_corner], quad[first_corner + 2]));
   for (size_t k = 0; k < 4; ++k)
     if (!region.is_side(quad[k], quad[(k + 1) % 4])) cost += chord_cost(region, quad[k], quad[(k + 1) % 4]);

@@ -7,6 +7,7 @@
 #include "numerics/bvh.hh"
 #include "numerics/shorter_diagonal.hh"
 #include "numerics/small_triangulation.hh"
+#include "rounding.hh"
 
 namespace anisomesh::detail {
 
@@ -128,7 +129,7 @@ bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& 
     }
     if (d <= tolerance_) continue;
     const double weighted = d * std::min(1.0, border_distance(probe.position) / size);
-    if (weighted <= worst) continue;
+    if (!is_surely_less(worst, weighted)) continue;
     worst = weighted;
     chosen = &probe;
   }

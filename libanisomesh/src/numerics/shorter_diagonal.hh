@@ -11,7 +11,7 @@ inline size_t shorter_diagonal(const std::vector<int>& quad, const std::vector<O
   const auto squared = [&](size_t k) {
     return (positions[static_cast<size_t>(quad[k])] - positions[static_cast<size_t>(quad[k + 2])]).sqrnorm();
   };
-  return squared(1) < squared(0) ? 1 : 0;
+  return squared(1) < (1 - 1e-9) * squared(0) ? 1 : 0;  // not by rounding
 }
 
 }  // namespace anisomesh::detail
