@@ -236,9 +236,7 @@ std::vector<Piece> partition_region(const RegionCorners& region, const PolygonJu
   if (large || options.max_degree == 0) {
     std::vector<Piece> pieces, result;
     // In a flat place corners are straight but for rounding, and a convex partition would turn on that.
-    if (options.max_degree != 0)
-      for (int least = static_cast<int>(region.loop) / 4; least >= 2 && pieces.empty(); least /= 2)
-        pieces = cut_in_two(region, least);
+    if (options.max_degree != 0) pieces = cut_in_two(region, static_cast<int>(region.loop) / 4);
     if (pieces.size() < 2) pieces = cut_convex(region);
     if (pieces.empty()) pieces = cut_ears(region);
     if (pieces.size() > 1) {

@@ -69,9 +69,9 @@ std::vector<Measures> measures_of(const FilterSamples& samples) {
   return measures;
 }
 
-/// The samples of each group, its first one in front. Groups start in an order that follows the shape, and are
-/// numbered as the mesh is: what lies close together on the surface then lies close together in memory, which
-/// is most of the time of a pass over a large scan.
+/// The samples of each group, its first one in front. Groups start in an order that follows the shape, and
+/// are numbered as the mesh is: what lies close together on the surface then lies close together in memory,
+/// which is most of the time of a pass over a large scan.
 std::vector<std::vector<int>> members_of_groups(const FilterSamples& samples) {
   std::vector<std::vector<int>> members;
   std::vector<char> taken(samples.place.size(), 0);

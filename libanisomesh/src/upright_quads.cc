@@ -29,10 +29,10 @@ bool is_upright(const std::vector<int>& quad, size_t corner, const NetworkGraph&
   const auto p = [&](size_t k) { return network.positions[at(node(k))]; };
   const Vec3d along = p(2) - p(0), first = cross(p(1) - p(0), along), second = cross(along, p(3) - p(0));
   const Vec3d whole = first + second;
-  // One without area, as between three corners on a straight curve, faces nowhere.
+  // One without area, as between three corners on a straight curve, faces nowhere; it is no better.
   const double least = kRounding * along.sqrnorm();
   const auto stands = [&](const Vec3d& n) {
-    return n.norm() > least && (n | whole) < least_cosine * n.norm() * whole.norm();
+    return n.norm() <= least || (n | whole) < least_cosine * n.norm() * whole.norm();
   };
   return (stands(first) && on_curve(node(0), node(1), node(2), network.graph)) ||
          (stands(second) && on_curve(node(2), node(3), node(0), network.graph));
