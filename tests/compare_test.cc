@@ -120,6 +120,19 @@ TEST_CASE("a mesh lies on itself and is whole", "[compare]") {
   CHECK(c.faces_by_degree == std::map<int, size_t>{{3, reference.n_faces()}});
 }
 
+TEST_CASE("a bent quad has one normal, and its surface those of the two triangles it is split into",
+          "[compare]") {
+  // Folded along its shorter diagonal, each half 20 degrees off the mean plane.
+  const double along = std::cos(20 * pi / 180), down = -std::sin(20 * pi / 180);
+  const std::vector<Vec3d> folded{{-0.6, 0, 0}, {0, -along, down}, {0.6, 0, 0}, {0, along, down}};
+  PolyMesh quad = polygons(folded, {{0, 1, 2, 3}});
+  auto reference = triangulated(polygons(folded, {{0, 1, 2}, {0, 2, 3}}));
+  const Comparison c = compare(reference, quad);
+  CHECK(c.two_sided.hausdorff < 1e-12);
+  CHECK(c.mean_surface_normal_deviation_degrees < 1e-6);
+  CHECK(c.mean_normal_deviation_degrees == Approx(20).epsilon(0.01));
+}
+
 TEST_CASE("a lifted plane is as far away as it was lifted", "[compare]") {
   auto reference = triangulated(quad_grid(7, 5, flat));
   const double height = 0.03;

@@ -35,7 +35,9 @@ std::vector<std::pair<std::string, std::string>> comparison_lines(const Comparis
       {"  reference to result", distances(c.from_reference)},
       {"  both", distances(c.two_sided)},
       {"  99 % of samples nearer", format("%.5f", 100 * c.p99_fraction)},
-      {"mean normal deviation", format("%.2f degrees", c.mean_normal_deviation_degrees)},
+      {"mean normal deviation", format("%.2f degrees", c.mean_normal_deviation_degrees) + " of polygons, " +
+                                    format("%.2f", c.mean_surface_normal_deviation_degrees) +
+                                    " of the triangles they are split into"},
       {"elements", format("%zu vertices, %zu edges, %zu faces", c.vertices, c.edges, c.faces)},
       {"faces by degree", histogram(c.faces_by_degree)},
       {"quads", format("%.1f %%", 100 * c.quad_fraction)},

@@ -186,6 +186,7 @@ Json to_json(const Comparison& c) {
           {"two_sided", to_json(c.two_sided)},
           {"p99", c.p99_fraction},
           {"mean_normal_deviation_degrees", c.mean_normal_deviation_degrees},
+          {"mean_surface_normal_deviation_degrees", c.mean_surface_normal_deviation_degrees},
           {"vertices", c.vertices},
           {"faces", c.faces},
           {"edges", c.edges},

@@ -18,7 +18,7 @@ using detail::PatchChanges;
 using detail::PatchMesh;
 using detail::PatchMove;
 
-constexpr int passes_before = 3, passes_between = 1;
+constexpr int passes_before = 2, passes_between = 1;
 constexpr double sure = 1.2;  // an exchange must gain this many times what it costs
 
 /// Takes removals and additions in turn, as long as that pays, or the number of vertices is not what it is to
@@ -99,7 +99,7 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     state = std::make_unique<detail::FitState>(std::move(*state), work, mesh.heirs());
   }
   report_progress(progress, options.rounds / (options.rounds + 1.0));
-  fit(fit_options.passes);
+  fit(change ? (fit_options.passes + 1) / 2 : fit_options.passes);  // what was changed begins near
   report.fit.rms_after = rms(state->energy());
   report_progress(progress, 1);
   // A given number of vertices may have cost more than the moves have gained.

@@ -64,13 +64,24 @@ double quantile(const std::vector<ClosestPoint>& a, const std::vector<ClosestPoi
   return std::sqrt(*at);
 }
 
-double mean_normal_deviation(const ReferenceSurface& reference, const PolygonSoup& result,
-                             const std::vector<AreaSample>& samples, const std::vector<ClosestPoint>& hits) {
+Vec3d normal_of(const PolygonSoup& result, size_t triangle) {
+  const Triangle& corner = result.triangles[triangle];
+  const Vec3d& a = result.points[static_cast<size_t>(corner[0])];
+  const Vec3d normal = cross(result.points[static_cast<size_t>(corner[1])] - a,
+                             result.points[static_cast<size_t>(corner[2])] - a);
+  const double length = normal.norm();
+  return length > 0 ? normal / length : normal;
+}
+
+/// \param normal_at of each triangle of the result
+template <class NormalAt>
+double mean_normal_deviation(const ReferenceSurface& reference, const std::vector<AreaSample>& samples,
+                             const std::vector<ClosestPoint>& hits, NormalAt normal_at) {
   double sum = 0;
   size_t count = 0;
   for (size_t i = 0; i < samples.size(); ++i) {
-    const auto face = static_cast<size_t>(result.face_of[static_cast<size_t>(samples[i].triangle)]);
-    const Vec3d &a = result.normals[face], &b = reference.normals[static_cast<size_t>(hits[i].triangle)];
+    const Vec3d a = normal_at(static_cast<size_t>(samples[i].triangle)),
+                b = reference.normals[static_cast<size_t>(hits[i].triangle)];
     if (!(a.sqrnorm() > 0) || !(b.sqrnorm() > 0)) continue;
     sum += std::atan2(cross(a, b).norm(), dot(a, b)) * degrees;
     ++count;
@@ -119,7 +130,11 @@ void measure_distances(const ReferenceSurface& reference, const PolygonSoup& res
   both.rms = std::sqrt(0.5 * (to.rms * to.rms + from.rms * from.rms));
   both.hausdorff = std::max(to.hausdorff, from.hausdorff);
   comparison.p99_fraction = quantile(forward, backward, 0.99) / diagonal;
-  comparison.mean_normal_deviation_degrees = mean_normal_deviation(reference, result, on_result, forward);
+  comparison.mean_normal_deviation_degrees = mean_normal_deviation(
+      reference, on_result, forward,
+      [&](size_t triangle) { return result.normals[static_cast<size_t>(result.face_of[triangle])]; });
+  comparison.mean_surface_normal_deviation_degrees = mean_normal_deviation(
+      reference, on_result, forward, [&](size_t triangle) { return normal_of(result, triangle); });
 
   vertex_errors.clear();
   for (const ClosestPoint& hit : forward_vertices) vertex_errors.push_back(std::sqrt(hit.squared_distance));

@@ -43,7 +43,7 @@ FitMatching::Foot FitMatching::foot_from(const Vec3d& place, const Vec3d& normal
                                          OpenMesh::FaceHandle face) const {
   Foot foot;
   foot.point = input_.locator.locate(Vec2d(0, 0), place, face);
-  foot.away = position(surface_, foot.point) - place;
+  foot.away = input_.locator.position(foot.point) - place;
   const double cosine = input_.normal[at(foot.point.face.idx())] | normal;
   foot.key = foot.away.norm() / std::max(least_cosine, cosine);
   return foot;

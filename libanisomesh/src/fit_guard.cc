@@ -21,22 +21,13 @@ constexpr int halvings = 5, max_rounds = 100;
 
 }  // namespace
 
-FitGuard::FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const FitInput& input,
-                   const FitPairs& pairs)
+FitGuard::FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const std::vector<TriangleForm>& forms)
     : mesh_(mesh), normals_(static_cast<size_t>(mesh.n_polygons()), Vec3d(0, 0, 0)) {
-  beside_.assign(mesh.sides.size(), {-1, -1});
-  for (int p = 0; p < mesh.n_polygons(); ++p)
-    for (int i = mesh.first_corner[at(p)]; i < mesh.first_corner[at(p) + 1]; ++i) {
-      auto& pair = beside_[at(mesh.corner_side[at(i)])];
-      (pair.first < 0 ? pair.first : pair.second) = p;
-    }
-  tbb::parallel_for(size_t{0}, normals_.size(), [&](size_t p) {
-    for (int t = triangles.first[p]; t < triangles.first[p + 1]; ++t)
-      pairs.for_each(at(t),
-                     [&](const FitPair& pair) { normals_[p] += pair.weight * input.normal[at(pair.face)]; });
+  for (size_t p = 0; p < normals_.size(); ++p) {
+    for (int t = triangles.first[p]; t < triangles.first[p + 1]; ++t) normals_[p] += forms[at(t)].normal_sum;
     const double length = normals_[p].norm();
     if (length > 0) normals_[p] /= length;
-  });
+  }
 }
 
 FitGuard::Shape FitGuard::shape_of(int polygon, const std::vector<Vec3d>& points) const {
@@ -54,15 +45,14 @@ FitGuard::Shape FitGuard::shape_of(int polygon, const std::vector<Vec3d>& points
   if (!(length > 0)) return shape;
   shape.normal = area / length;
   shape.fullness = length / squared;
-  shape.least_turn = pi;
   for (int i = 0; i < n; ++i) {
     const Vec3d in = place(i) - place(i - 1), out = place(i + 1) - place(i);
-    const double turn =
-        std::atan2(cross(in, out) | shape.normal, (in | out) - (in | shape.normal) * (out | shape.normal));
-    shape.least_turn = std::min(shape.least_turn, turn);
     const Vec3d corner = cross(in, out);
-    const double norm = corner.norm();
-    if (n > 3 && norm > 0) shape.bend = std::min(shape.bend, (corner | shape.normal) / norm);
+    const double norm = corner.norm(), left = corner | shape.normal;
+    if (left < 0)  // else it is convex there, and how much does not matter
+      shape.least_turn = std::min(shape.least_turn,
+                                  std::atan2(left, (in | out) - (in | shape.normal) * (out | shape.normal)));
+    if (n > 3 && norm > 0) shape.bend = std::min(shape.bend, left / norm);
   }
   return shape;
 }
@@ -76,49 +66,56 @@ bool FitGuard::is_sound(int polygon, const Shape& shape, const Shape& before) co
          (shape.normal | wanted) >= std::min(least_cosine, before.normal | wanted);
 }
 
-std::vector<char> FitGuard::unsound(const std::vector<Vec3d>& points,
-                                    const std::vector<Shape>& before) const {
-  const auto n = static_cast<size_t>(mesh_.n_polygons());
-  std::vector<Shape> shape(n);
-  std::vector<char> bad(n, 0);
-  tbb::parallel_for(size_t{0}, n, [&](size_t p) {
+// Polygons that have become unsound. Only those marked are looked at, and their neighbours.
+void FitGuard::judge(const std::vector<Vec3d>& points, const std::vector<Shape>& before,
+                     const std::vector<char>& changed, std::vector<Shape>& shape,
+                     std::vector<char>& bad) const {
+  tbb::parallel_for(size_t{0}, shape.size(), [&](size_t p) {
+    bad[p] = 0;
+    if (!changed[p]) return;
     shape[p] = shape_of(static_cast<int>(p), points);
     bad[p] = !is_sound(static_cast<int>(p), shape[p], before[p]);
   });
-  for (size_t s = 0; s < beside_.size(); ++s) {
-    const auto [p, q] = beside_[s];
-    if (q < 0) continue;
+  for (const auto& [p, q] : mesh_.beside) {
+    if (q < 0 || (!changed[at(p)] && !changed[at(q)])) continue;
     const double cosine = shape[at(p)].normal | shape[at(q)].normal;
     if (cosine < least_fold && cosine < (before[at(p)].normal | before[at(q)].normal))
       bad[at(p)] = bad[at(q)] = 1;
   }
-  return bad;
 }
 
 std::vector<Vec3d> FitGuard::move(
     const std::vector<Vec3d>& points, const std::vector<Vec3d>& step,
     const std::function<void(const std::vector<Vec3d>&, std::vector<char>&)>& strays, size_t& held) const {
-  std::vector<Shape> before(static_cast<size_t>(mesh_.n_polygons()));
-  tbb::parallel_for(size_t{0}, before.size(),
-                    [&](size_t p) { before[p] = shape_of(static_cast<int>(p), points); });
+  const size_t n = static_cast<size_t>(mesh_.n_polygons());
+  std::vector<Shape> before(n), shape(n);
+  tbb::parallel_for(size_t{0}, n, [&](size_t p) { before[p] = shape_of(static_cast<int>(p), points); });
   std::vector<double> share(points.size(), 1);
   std::vector<Vec3d> moved(points.size());
+  for (size_t v = 0; v < points.size(); ++v) moved[v] = points[v] + step[v];
+  std::vector<char> bad(n, 0), changed(n, 1), less;
   // Once no share of an unsound polygon is left it is what it was before, which is as sound as it need be.
   for (int round = 0; round < max_rounds; ++round) {
-    for (size_t v = 0; v < points.size(); ++v) moved[v] = points[v] + share[v] * step[v];
-    const auto bad = unsound(moved, before);
-    std::vector<char> less(points.size(), 0);
-    for (int p = 0; p < mesh_.n_polygons(); ++p)
-      if (bad[at(p)])
-        for (const int* v = mesh_.begin(p); v != mesh_.end(p); ++v) less[at(*v)] = 1;
+    judge(moved, before, changed, shape, bad);
+    less.assign(points.size(), 0);
+    for (size_t p = 0; p < n; ++p)
+      if (bad[p])
+        for (const int* v = mesh_.begin(static_cast<int>(p)); v != mesh_.end(static_cast<int>(p)); ++v)
+          less[at(*v)] = 1;
     strays(moved, less);
     if (std::find(less.begin(), less.end(), 1) == less.end()) {
       held = 0;
       for (size_t v = 0; v < points.size(); ++v) held += share[v] < 1 && step[v].sqrnorm() > 0;
       return moved;
     }
-    for (size_t v = 0; v < points.size(); ++v)
-      if (less[v]) share[v] = round < halvings ? share[v] / 2 : 0;
+    changed.assign(n, 0);
+    for (size_t v = 0; v < points.size(); ++v) {
+      if (!less[v]) continue;
+      share[v] = round < halvings ? share[v] / 2 : 0;
+      moved[v] = points[v] + share[v] * step[v];
+      for (int i = mesh_.first_polygon[v]; i < mesh_.first_polygon[v + 1]; ++i)
+        changed[at(mesh_.polygons[at(i)])] = 1;
+    }
   }
   return points;
 }

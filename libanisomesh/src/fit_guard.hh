@@ -4,14 +4,14 @@
 #include <functional>
 #include <vector>
 
-#include "fit_matching.hh"
+#include "fit_terms.hh"
 
 namespace anisomesh::detail {
 
 class FitGuard {
  public:
-  /// \param pairs which part of the input each polygon stands for
-  FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const FitInput& input, const FitPairs& pairs);
+  /// \param forms know which part of the input each polygon stands for
+  FitGuard(const FitMesh& mesh, const FitTriangles& triangles, const std::vector<TriangleForm>& forms);
 
   /// points + share * step, where the share of each vertex is the largest of 1, 1/2, 1/4 ... 0 for which no
   /// polygon becomes folded, concave or a sliver. \param strays marks further vertices that have gone too far
@@ -24,16 +24,16 @@ class FitGuard {
   struct Shape {
     Vec3d normal{0, 0, 0};  // unit
     double fullness = 0;    // twice the area over the squared diameter
-    double least_turn = 0;  // of its corners, radians; negative where it is concave
+    double least_turn = 0;  // of its corners, radians; negative where it is concave, else 0
     double bend = 1;        // least cosine of two of its triangles
   };
   Shape shape_of(int polygon, const std::vector<Vec3d>& points) const;
   bool is_sound(int polygon, const Shape& shape, const Shape& before) const;
-  std::vector<char> unsound(const std::vector<Vec3d>& points, const std::vector<Shape>& before) const;
+  void judge(const std::vector<Vec3d>& points, const std::vector<Shape>& before,
+             const std::vector<char>& changed, std::vector<Shape>& shape, std::vector<char>& bad) const;
 
   const FitMesh& mesh_;
-  std::vector<std::pair<int, int>> beside_;  // the polygons at each side; the second is -1 at the border
-  std::vector<Vec3d> normals_;               // of the input, for each polygon; zero where none is known
+  std::vector<Vec3d> normals_;  // of the input, for each polygon; zero where none is known
 };
 
 }  // namespace anisomesh::detail

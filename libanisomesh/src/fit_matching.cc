@@ -58,8 +58,8 @@ FitMatching::FitMatching(const SurfaceRef& surface, const FitInput& input, const
                          std::vector<OpenMesh::FaceHandle> sources, const FitTriangles& triangles,
                          const std::vector<Vec3d>& points)
     : surface_(surface), input_(input), mesh_(mesh), sources_(std::move(sources)) {
-  place_samples(flood(triangles, points), triangles.corner.size());
-  start_in_large_faces(triangles, points);
+  start_in_large_faces(place_samples(flood(triangles, points), triangles.corner.size()), triangles, points);
+  sort_samples();
 }
 
 FitMatching::FitMatching(FitMatching&& earlier, const FitMesh& mesh,
@@ -70,7 +70,7 @@ FitMatching::FitMatching(FitMatching&& earlier, const FitMesh& mesh,
       mesh_(mesh),
       sources_(std::move(sources)),
       samples_(std::move(earlier.samples_)),
-      first_sample_(std::move(earlier.first_sample_)) {
+      sample_of_(std::move(earlier.sample_of_)) {
   tbb::parallel_for(size_t{0}, samples_.size(), [&](size_t i) {
     Sample& sample = samples_[i];
     const PolygonRange range = heirs[at(sample.polygon)];
@@ -116,40 +116,44 @@ bool touches_curve(const OpenMesh::TriConnectivity& mesh, OpenMesh::FaceHandle f
 
 // As many as the polygons need: where the input's faces are far smaller, some are left out, evenly by area,
 // but for those beside features and borders.
-void FitMatching::place_samples(const std::vector<int>& polygon, size_t n_triangles) {
+std::vector<int> FitMatching::place_samples(const std::vector<int>& polygon, size_t n_triangles) {
   const auto& mesh = surface_.connectivity();
   double total = 0;
   for (const double area : input_.area) total += area;
   const double share = total / (input_samples * static_cast<double>(n_triangles));
   std::vector<Thinning> thinning(at(mesh_.n_polygons()));
   std::vector<int> parts(mesh.n_faces(), 0);
+  std::vector<char> whole(parts.size(), 0);
   for (size_t f = 0; f < parts.size(); ++f) {
     if (!(input_.area[f] > 0) || polygon[f] < 0) continue;
     parts[f] = divisions(input_.area[f], share);
+    whole[f] = touches_curve(mesh, OpenMesh::FaceHandle(static_cast<int>(f)));
+    if (whole[f]) continue;
     thinning[at(polygon[f])].pieces += parts[f] * parts[f];
     thinning[at(polygon[f])].area += input_.area[f];
   }
+  std::vector<int> first_sample;
   for (Thinning& t : thinning) t.begin(std::max(least_samples, t.area / share));
   for (const auto f : mesh.faces()) {
-    first_sample_.push_back(static_cast<int>(samples_.size()));
+    first_sample.push_back(static_cast<int>(samples_.size()));
     const int n = parts[at(f.idx())];
     if (n == 0) continue;
-    const bool all = touches_curve(mesh, f);
     const auto c = surface_.corners(f);
     const double piece = input_.area[at(f.idx())] / (n * n);
     Sample sample;
     sample.face = f.idx();
     sample.polygon = polygon[at(f.idx())];
     for_each_piece(n, [&](const Vec3d& b) {
-      const double area = thinning[at(sample.polygon)].take(piece);
-      sample.weight = (all ? piece : area) / total;
-      if (!(sample.weight > 0)) return;
+      const double area = whole[at(f.idx())] ? piece : thinning[at(sample.polygon)].take(piece);
+      if (!(area > 0)) return;
+      sample.weight = area / total;
       sample.place = b[0] * surface_.point(c.vertex[0]) + b[1] * surface_.point(c.vertex[1]) +
                      b[2] * surface_.point(c.vertex[2]);
       samples_.push_back(sample);
     });
   }
-  first_sample_.push_back(static_cast<int>(samples_.size()));
+  first_sample.push_back(static_cast<int>(samples_.size()));
+  return first_sample;
 }
 
 // Goes from polygon to polygon as long as there is a nearer one that faces the same way.
@@ -190,9 +194,24 @@ bool FitMatching::nearest(const Vec3d& place, const Vec3d& normal, const FitTria
   return true;
 }
 
+// By polygon, so that what is looked at one after the other lies together in memory, too.
+void FitMatching::sort_samples() {
+  std::vector<int> first(at(mesh_.n_polygons()) + 1, 0);
+  for (const Sample& sample : samples_) ++first[at(sample.polygon) + 1];
+  for (size_t p = 0; p + 1 < first.size(); ++p) first[p + 1] += first[p];
+  std::vector<Sample> sorted(samples_.size());
+  sample_of_.assign(input_.area.size(), -1);
+  for (const Sample& sample : samples_) {
+    const int i = first[at(sample.polygon)]++;
+    sorted[at(i)] = sample;
+    if (sample_of_[at(sample.face)] < 0) sample_of_[at(sample.face)] = i;
+  }
+  samples_ = std::move(sorted);
+}
+
 int FitMatching::polygon_of(int face) const {
-  const int first = first_sample_[at(face)];
-  return first < first_sample_[at(face) + 1] ? samples_[at(first)].polygon : -1;
+  const int sample = sample_of_[at(face)];
+  return sample < 0 ? -1 : samples_[at(sample)].polygon;
 }
 
 void FitMatching::match(const FitTriangles& triangles, const std::vector<Vec3d>& points,

@@ -50,12 +50,14 @@ class FitMatching {
   int polygon_of(int face) const;
 
  private:
-  void place_samples(const std::vector<int>& polygon, size_t n_triangles);
+  std::vector<int> place_samples(const std::vector<int>& polygon, size_t n_triangles);
   int best_at(const int* begin, const int* end, OpenMesh::FaceHandle face, const FitTriangles& triangles,
               const std::vector<Vec3d>& points) const;
   Vec3d centre_of(OpenMesh::FaceHandle face) const;
   std::vector<int> flood(const FitTriangles& triangles, const std::vector<Vec3d>& points) const;
-  void start_in_large_faces(const FitTriangles& triangles, const std::vector<Vec3d>& points);
+  void start_in_large_faces(const std::vector<int>& first_sample, const FitTriangles& triangles,
+                            const std::vector<Vec3d>& points);
+  void sort_samples();
   bool nearest(const Vec3d& place, const Vec3d& normal, const FitTriangles& triangles,
                const std::vector<Vec3d>& points, int& polygon, FitPair& pair) const;
   struct Foot {
@@ -76,7 +78,7 @@ class FitMatching {
   const FitMesh& mesh_;
   std::vector<OpenMesh::FaceHandle> sources_;
   std::vector<Sample> samples_;
-  std::vector<int> first_sample_;  // of each face
+  std::vector<int> sample_of_;  // of each face, its first one; -1: none
 };
 
 }  // namespace anisomesh::detail

@@ -61,6 +61,24 @@ FitMesh::FitMesh(const OpenMesh::PolyMesh& mesh) : n_vertices(static_cast<int>(m
   std::vector<int> next(first_polygon.begin(), first_polygon.end() - 1);
   for (int p = 0; p < n_polygons(); ++p)
     for (const int* v = begin(p); v != end(p); ++v) polygons[at(next[at(*v)]++)] = p;
+  connect_sides();
+}
+
+void FitMesh::connect_sides() {
+  beside.assign(sides.size(), {-1, -1});
+  for (int p = 0; p < n_polygons(); ++p)
+    for (int i = first_corner[at(p)]; i < first_corner[at(p) + 1]; ++i) {
+      auto& pair = beside[at(corner_side[at(i)])];
+      pair[pair[0] < 0 ? 0 : 1] = p;
+    }
+  first_side.assign(at(n_vertices) + 1, 0);
+  for (const Side& side : sides)
+    for (const int v : {side.from, side.to}) ++first_side[at(v) + 1];
+  for (int v = 0; v < n_vertices; ++v) first_side[at(v) + 1] += first_side[at(v)];
+  sides_at.resize(2 * sides.size());
+  std::vector<int> next(first_side.begin(), first_side.end() - 1);
+  for (size_t s = 0; s < sides.size(); ++s)
+    for (const int v : {sides[s].from, sides[s].to}) sides_at[at(next[at(v)]++)] = static_cast<int>(s);
 }
 
 int FitMesh::side(int polygon, int v, int w) const {
@@ -94,14 +112,16 @@ FitTriangles::FitTriangles(const FitMesh& mesh, const std::vector<Vec3d>& points
       const Vec3d n = cross(b - a, c - a);
       const double twice = n.norm();
       corner.push_back({mesh.begin(p)[local[0]], mesh.begin(p)[local[1]], mesh.begin(p)[local[2]]});
+      side.push_back({mesh.side(p, corner.back()[0], corner.back()[1]),
+                      mesh.side(p, corner.back()[1], corner.back()[2]),
+                      mesh.side(p, corner.back()[2], corner.back()[0])});
       normal.push_back(twice > 0 ? n / twice : Vec3d(0, 0, 0));
       area.push_back(0.5 * twice);
-      const auto over = [&](size_t k) {  // the side from corner k + 1 to k + 2
-        const int from = local[(k + 1) % 3], to = local[(k + 2) % 3];
-        if (to != (from + 1) % mesh.degree(p)) return no_side;
-        return twice > 0 ? twice / (place[at(to)] - place[at(from)]).norm() : 0;
+      const auto over = [&](size_t k, const Vec3d& along) {
+        if (side.back()[k] < 0) return no_side;
+        return twice > 0 ? twice / along.norm() : 0;
       };
-      height.emplace_back(over(0), over(1), over(2));
+      height.emplace_back(over(1, c - b), over(2, a - c), over(0, b - a));
     }
   }
   first.push_back(static_cast<int>(corner.size()));

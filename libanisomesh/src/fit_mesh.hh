@@ -2,6 +2,7 @@
 #pragma once
 
 #include <OpenMesh/Core/Mesh/DefaultPolyMesh.hh>
+#include <array>
 #include <vector>
 
 #include "numerics/bvh.hh"
@@ -29,10 +30,15 @@ struct FitMesh {
     int from = -1, to = -1;
     bool on_curve = false;  ///< a feature or the border
   };
-  std::vector<Side> sides;       ///< of polygons, each once
+  std::vector<Side> sides;                 ///< of polygons, each once
+  std::vector<std::array<int, 2>> beside;  ///< for each side, the polygons at it; -1: none
+  std::vector<int> first_side;             ///< of each vertex, into sides_at
+  std::vector<int> sides_at;               ///< each vertex, ascending
   std::vector<int> corner_side;  ///< for each of corners, the side to the next corner of its polygon
   /// The side from v to w, if they follow each other on the polygon; -1 otherwise.
   int side(int polygon, int v, int w) const;
+
+  void connect_sides();
 
   int n_polygons() const { return static_cast<int>(first_corner.size()) - 1; }
   int degree(int polygon) const { return first_corner[size_t(polygon) + 1] - first_corner[size_t(polygon)]; }
@@ -46,7 +52,8 @@ struct FitTriangles {
 
   std::vector<int> first;  ///< of each polygon; one more than there are polygons
   std::vector<Triangle> corner;
-  std::vector<Vec3d> normal;  ///< unit; zero without area
+  std::vector<Triangle> side;  ///< of the mesh, from each corner to the next; -1: a diagonal
+  std::vector<Vec3d> normal;   ///< unit; zero without area
   std::vector<double> area;
   std::vector<Vec3d> height;   ///< over the side opposite to each corner; huge where it is a diagonal
   std::vector<Vec3d> centre;   ///< of each polygon

@@ -91,14 +91,15 @@ std::vector<int> FitMatching::flood(const FitTriangles& triangles, const std::ve
 
 // Where a face holds many samples and polygons, from its one polygon downhill may end at the rim of a hole
 // between them: each sample also looks from the nearest vertex that comes from its face.
-void FitMatching::start_in_large_faces(const FitTriangles& triangles, const std::vector<Vec3d>& points) {
-  std::vector<std::vector<int>> vertices(first_sample_.size() - 1);
+void FitMatching::start_in_large_faces(const std::vector<int>& first_sample, const FitTriangles& triangles,
+                                       const std::vector<Vec3d>& points) {
+  std::vector<std::vector<int>> vertices(first_sample.size() - 1);
   for (int v = 0; v < mesh_.n_vertices; ++v)
     if (mesh_.first_polygon[at(v)] < mesh_.first_polygon[at(v) + 1])
       vertices[at(sources_[at(v)].idx())].push_back(v);
   tbb::parallel_for(size_t{0}, vertices.size(), [&](size_t f) {
-    if (vertices[f].empty() || first_sample_[f + 1] - first_sample_[f] < 2) return;
-    for (int i = first_sample_[f]; i < first_sample_[f + 1]; ++i) {
+    if (vertices[f].empty() || first_sample[f + 1] - first_sample[f] < 2) return;
+    for (int i = first_sample[f]; i < first_sample[f + 1]; ++i) {
       Sample& sample = samples_[at(i)];
       const int v = *std::min_element(vertices[f].begin(), vertices[f].end(), [&](int a, int b) {
         return (points[at(a)] - sample.place).sqrnorm() < (points[at(b)] - sample.place).sqrnorm();

@@ -8,6 +8,7 @@
 #include "fit_curves.hh"
 #include "fit_matching.hh"
 #include "fit_system.hh"
+#include "fit_terms.hh"
 
 namespace anisomesh::detail {
 
@@ -46,6 +47,7 @@ class FitState {
   FitTriangles triangles_;
   FitMatching matching_;
   FitPairs pairs_, spare_;
+  std::vector<TriangleForm> forms_;
   FitCurves curves_;
 };
 

@@ -59,6 +59,16 @@ FitSystem::FitSystem(const std::vector<char>& free, const FitPattern& pattern)
       block_(at(pattern.end(pattern.rows() - 1)), Vec6d(0.0)),
       right_(free.size(), Vec3d(0, 0, 0)) {}
 
+void FitSystem::fill(const std::function<void(int, Row&)>& fill) {
+  tbb::parallel_for(tbb::blocked_range<int>(0, pattern_.rows(), rows_at_once), [&](const auto& range) {
+    for (int v = range.begin(); v != range.end(); ++v) {
+      if (!free_[at(v)]) continue;
+      Row row(*this, v);
+      fill(v, row);
+    }
+  });
+}
+
 void FitSystem::add(int v, int w, const Vec6d& b) {
   if (!free_[at(v)] || !free_[at(w)]) return;
   block_[at(pattern_.place(v, w))] += b;

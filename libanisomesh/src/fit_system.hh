@@ -1,6 +1,7 @@
 // The sparse least squares of one pass of the fit: unknown steps of vertices, three to a vertex.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "fit_mesh.hh"
@@ -30,6 +31,23 @@ class FitSystem {
  public:
   /// \param free vertices that may move \param pattern is referred to
   FitSystem(const std::vector<char>& free, const FitPattern& pattern);
+
+  /// One row of the matrix and the right side, while they are put together.
+  class Row {
+   public:
+    Row(FitSystem& system, int v) : system_(system), v_(v) {}
+    /// A_vw += block.
+    void add(int w, const Vec6d& block) {
+      system_.block_[static_cast<size_t>(system_.pattern_.place(v_, w))] += block;
+    }
+    void add_right(const Vec3d& value) { system_.right_[static_cast<size_t>(v_)] += value; }
+
+   private:
+    FitSystem& system_;
+    int v_;
+  };
+  /// Calls fill(v, row) for each free vertex, several at a time; what one adds has to be the same each time.
+  void fill(const std::function<void(int, Row&)>& fill);
 
   /// A_vw += block and, where v and w differ, A_wv too.
   void add(int v, int w, const Vec6d& block);

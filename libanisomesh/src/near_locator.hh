@@ -12,6 +12,12 @@ class NearLocator final : public SurfaceLocator {
   explicit NearLocator(const SurfaceRef& surface) : mesh_(surface) {}
   SurfacePoint locate(const Vec2d& uv, const Vec3d& place, OpenMesh::FaceHandle start,
                       bool* inside = nullptr) const override;
+  Vec3d position(const SurfacePoint& point) const {
+    const int face = point.face.idx();
+    return point.barycentric[0] * mesh_.corner_point(face, 0) +
+           point.barycentric[1] * mesh_.corner_point(face, 1) +
+           point.barycentric[2] * mesh_.corner_point(face, 2);
+  }
 
  private:
   SurfaceArrays mesh_;

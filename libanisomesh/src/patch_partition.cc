@@ -27,6 +27,8 @@ PatchView::PatchView(const Vec3d& normal, std::vector<PatchSample> samples, cons
   u_ = frame.u;
   v_ = frame.v;
   lines_ = orientation(followed(in_frame(tensor, frame), costs.follow));
+  cosine_ = std::cos(2 * lines_.angle);
+  sine_ = std::sin(2 * lines_.angle);
   places_.reserve(samples_.size());
   for (const PatchSample& s : samples_) places_.push_back(seen(s.place));
 }
@@ -54,7 +56,10 @@ double PatchView::triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) const
 double PatchView::chord(const Vec3d& a, const Vec3d& b) const {
   if (!(lines_.anisotropy > least_anisotropy)) return 0;
   const Place p = seen(a), q = seen(b);
-  const double turned = std::abs(std::sin(2 * (std::atan2(q.y - p.y, q.x - p.x) - lines_.angle)));
+  const double x = q.x - p.x, y = q.y - p.y, squared = x * x + y * y;
+  if (!(squared > 0)) return 0;
+  // |sin| of twice the angle between
+  const double turned = std::abs(2 * x * y * cosine_ - (x * x - y * y) * sine_) / squared;
   return costs_.chord * turned * (b - a).norm();
 }
 

@@ -50,7 +50,8 @@ class PatchView {
   Place seen(const Vec3d& p) const { return {p | u_, p | v_}; }
 
   Vec3d normal_, u_, v_;
-  Orientation lines_;  // what lines follow here
+  Orientation lines_;             // what lines follow here
+  double cosine_ = 1, sine_ = 0;  // of twice their angle
   PatchCosts costs_;
   std::vector<PatchSample> samples_;
   std::vector<Place> places_;

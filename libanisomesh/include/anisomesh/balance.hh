@@ -2,6 +2,7 @@
 #pragma once
 
 #include <OpenMesh/Core/Mesh/DefaultPolyMesh.hh>
+#include <limits>
 
 #include "anisomesh/fit.hh"
 #include "anisomesh/progress.hh"
@@ -20,7 +21,7 @@ struct BalanceOptions {
   double alignment_cost = 1.5;
   /// At last quads are split whose two triangles' normals are nearer to the input's, by so many times what a
   /// polygon is off on the mean; 0: all that gain, infinite: none; >= 0
-  double split_gain = 0.5;
+  double split_gain = std::numeric_limits<double>::infinity();
   double least_quads = 0.76;  ///< ... as long as this share of the polygons is quads; [0, 1]
   int max_degree = 4;         ///< 3: makes no quads; other than 3 and 4: no polygon is changed
   void validate() const;      ///< \throw InvalidOption

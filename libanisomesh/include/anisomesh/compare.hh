@@ -29,11 +29,12 @@ struct Distances {  ///< fraction of the reference's bounding box diagonal
 };
 
 struct Comparison {
-  Distances to_reference;    ///< from samples on the result to the reference
-  Distances from_reference;  ///< from samples on the reference to the result
-  Distances two_sided;       ///< mean and rms over both sample sets, the larger hausdorff
-  double p99_fraction = 0;   ///< 99 % of all samples are nearer than this
-  double mean_normal_deviation_degrees = 0;
+  Distances to_reference;                    ///< from samples on the result to the reference
+  Distances from_reference;                  ///< from samples on the reference to the result
+  Distances two_sided;                       ///< mean and rms over both sample sets, the larger hausdorff
+  double p99_fraction = 0;                   ///< 99 % of all samples are nearer than this
+  double mean_normal_deviation_degrees = 0;  ///< of polygons, one normal each, of the plane of best fit
+  double mean_surface_normal_deviation_degrees = 0;  ///< of the triangles that distances are measured on
 
   size_t vertices = 0, faces = 0, edges = 0;
   size_t isolated_vertices = 0;  ///< without a face; not counted anywhere else
