@@ -34,8 +34,16 @@ std::string percent(double fraction) {
 
 std::string missed_bound(const anisomesh::RemeshOptions& options, const anisomesh::RemeshReport& report,
                          bool kept) {
-  return "the result misses --max-error: some point is " + percent(report.max_error.at_least) +
-         " of the diagonal away, and " + percent(options.max_error.max_error_fraction) + " was asked for; " +
+  const auto& found = report.max_error;
+  const double bound = options.max_error.max_error_fraction;
+  const auto beyond = [&](const char* what, double at_least, double at_most) {
+    if (at_most <= bound) return std::string();
+    if (!std::isfinite(at_least)) return std::string("there is no ") + what + " of one beside that of the other, ";
+    return std::string("some point of the ") + what + " is " + percent(at_least) + " of the diagonal away, ";
+  };
+  return "the result misses --max-error: " + beyond("surface", found.at_least, found.at_most) +
+         beyond("border", found.border.at_least, found.border.at_most) +
+         beyond("features", found.features.at_least, found.features.at_most) + "and " + percent(options.max_error.max_error_fraction) + " was asked for; " +
          (kept ? "it was written all the same" : "nothing was written, --keep writes it");
 }
 
@@ -107,9 +115,10 @@ int main(int argc, char* argv[]) {
     command.report()["output"] = output;
     if (missed && !keep) return;
     if (bounded && !missed)
-      command.say("no point of either surface is farther from the other than " +
+      command.say("no point of either surface, its border or its features is farther from that of the other than " +
                   percent(options.max_error.max_error_fraction) + " of the diagonal; some are as far as " +
-                  percent(report.max_error.at_least));
+                  percent(std::max({report.max_error.at_least, report.max_error.border.at_least,
+                                    report.max_error.features.at_least})));
     command.say(output + ": " + apps::mesh_summary(result));
     command.say("  features " + apps::seconds(report.features.seconds) + ", curvature " +
                 apps::seconds(report.curvature.seconds) +

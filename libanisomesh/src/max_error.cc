@@ -33,14 +33,48 @@ detail::TriangleTree tree_of(const SurfaceRef& surface) {
   return {surface.points(), triangles};
 }
 
-/// Bounds of the Hausdorff distance, both ways, model units.
-detail::DistanceBounds verify(const detail::TriangleTree& input, const OpenMesh::PolyMesh& result,
-                              double limit) {
-  const detail::PolygonSoup soup(result, FaceDiagonal::shorter);
-  const detail::TriangleTree tree(soup.points, soup.triangles);
-  const auto to = detail::farthest_distance(tree, input, limit),
-             from = detail::farthest_distance(input, tree, limit);
+/// Edges as triangles whose last two corners are one.
+template <class Mesh, class Takes>
+std::vector<detail::Triangle> edges_of(const Mesh& mesh, Takes takes) {
+  std::vector<detail::Triangle> edges;
+  for (const auto e : mesh.edges())
+    if (takes(mesh, e)) edges.push_back({e.v0().idx(), e.v1().idx(), e.v1().idx()});
+  return edges;
+}
+
+constexpr auto is_border = [](const auto& mesh, OpenMesh::EdgeHandle e) { return mesh.is_boundary(e); };
+constexpr auto is_feature = [](const auto& mesh, OpenMesh::EdgeHandle e) {
+  return !mesh.is_boundary(e) && mesh.has_edge_status() && mesh.status(e).feature();
+};
+
+/// What of the input the result is measured against.
+struct Reference {
+  explicit Reference(const SurfaceRef& surface)
+      : all(tree_of(surface)),
+        border(surface.points(), edges_of(surface.connectivity(), is_border)),
+        features(surface.points(), edges_of(surface.connectivity(), is_feature)) {}
+  detail::TriangleTree all, border, features;
+};
+
+/// Bounds of Hausdorff distances, both ways, model units.
+struct Bounds {
+  detail::DistanceBounds surface, border, features;
+  double at_least() const { return std::max({surface.at_least, border.at_least, features.at_least}); }
+  double at_most() const { return std::max({surface.at_most, border.at_most, features.at_most}); }
+};
+
+detail::DistanceBounds both_ways(const detail::TriangleTree& one, const detail::TriangleTree& other,
+                                 double limit) {
+  const auto to = detail::farthest_distance(one, other, limit),
+             from = detail::farthest_distance(other, one, limit);
   return {std::max(to.at_least, from.at_least), std::max(to.at_most, from.at_most)};
+}
+
+Bounds verify(const Reference& input, const OpenMesh::PolyMesh& result, double limit) {
+  const detail::PolygonSoup soup(result, FaceDiagonal::shorter);
+  return {both_ways(input.all, {soup.points, soup.triangles}, limit),
+          both_ways(input.border, {soup.points, edges_of(result, is_border)}, limit),
+          both_ways(input.features, {soup.points, edges_of(result, is_feature)}, limit)};
 }
 
 /// Applies all moves that are still open. \return how many
@@ -54,14 +88,14 @@ size_t apply_all(detail::PatchChanges& changes, const std::vector<PatchMove>& mo
 /// The best result so far: one that meets the bound before one that does not, then the smaller one.
 struct Best {
   OpenMesh::PolyMesh mesh;
-  detail::DistanceBounds bounds;
+  Bounds bounds;
   bool met = false, any = false;
 
-  void take(const OpenMesh::PolyMesh& other, const detail::DistanceBounds& found, double limit) {
-    const bool meets = found.at_most <= limit;
+  void take(const OpenMesh::PolyMesh& other, const Bounds& found, double limit) {
+    const bool meets = found.at_most() <= limit;
     const bool better =
         !any || (meets && !met) ||
-        (meets == met && (met ? other.n_vertices() < mesh.n_vertices() : found.at_least < bounds.at_least));
+        (meets == met && (met ? other.n_vertices() < mesh.n_vertices() : found.at_least() < bounds.at_least()));
     if (!better) return;
     mesh = other;
     bounds = found;
@@ -96,7 +130,7 @@ MaxErrorReport bound_error(const SurfaceRef& surface, OpenMesh::PolyMesh& result
   fit.validate();
   if (!(options.max_error_fraction > 0)) throw InvalidOption("bound_error() needs a bound above 0");
   const double limit = options.max_error_fraction * surface.diagonal();
-  const detail::TriangleTree input_tree = tree_of(surface);
+  const Reference reference(surface);
   const detail::FitInput input(surface);
   const bool change = balance.max_degree == 3 || balance.max_degree == 4;
   MaxErrorReport report;
@@ -111,7 +145,7 @@ MaxErrorReport bound_error(const SurfaceRef& surface, OpenMesh::PolyMesh& result
     report.balance.fit.passes += state->improve_often(last ? fit.passes : passes_between);
     report.balance.fit.rms_after = scale * std::sqrt(state->energy());
     for (const auto v : work.vertices()) work.set_point(v, state->points()[static_cast<size_t>(v.idx())]);
-    best.take(work, verify(input_tree, work, limit), limit);
+    best.take(work, verify(reference, work, limit), limit);
     if (last) break;
     detail::PatchMoves moves(surface, input, *state, balance);
     moves.set_limit(far_below * limit);
@@ -128,8 +162,13 @@ MaxErrorReport bound_error(const SurfaceRef& surface, OpenMesh::PolyMesh& result
     state = std::make_unique<detail::FitState>(std::move(*state), work, mesh.heirs());
   }
   report.met = best.met;
-  report.at_least = best.bounds.at_least / surface.diagonal();
-  report.at_most = best.bounds.at_most / surface.diagonal();
+  const auto fraction = [&](const detail::DistanceBounds& b) {
+    return VerifiedDistance{b.at_least / surface.diagonal(), b.at_most / surface.diagonal()};
+  };
+  report.at_least = fraction(best.bounds.surface).at_least;
+  report.at_most = fraction(best.bounds.surface).at_most;
+  report.border = fraction(best.bounds.border);
+  report.features = fraction(best.bounds.features);
   result = std::move(best.mesh);
   report_progress(progress, 1);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

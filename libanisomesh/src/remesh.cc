@@ -45,7 +45,10 @@ OpenMesh::PolyMesh remesh_within(const SurfaceRef& surface, const RemeshOptions&
     const MaxErrorReport bound =
         bound_error(surface, result, options.max_error, balance, options.fit,
                     sub_progress(progress, (attempt - 0.7) / count, attempt / count));
-    if (attempt == 1 || bound.met || bound.at_least < done.max_error.at_least) {
+    const auto farthest = [](const MaxErrorReport& r) {
+      return std::max({r.at_least, r.border.at_least, r.features.at_least});
+    };
+    if (attempt == 1 || bound.met || farthest(bound) < farthest(done.max_error)) {
       static_cast<TraceAndMeshReport&>(done) = traced;
       done.max_error = bound;
       best = std::move(result);

@@ -14,17 +14,24 @@ struct MaxErrorOptions {
   void validate() const;          ///< \throw InvalidOption
 };
 
+/// Bounds of a Hausdorff distance both ways, fraction of the diagonal, for all points and not by samples.
+/// Infinite where only one of the two has such curves.
+struct VerifiedDistance {
+  double at_least = 0, at_most = 0;
+};
+
 struct MaxErrorReport {
   BalanceReport balance;
-  bool met = false;  ///< no point of either is farther from the other than the bound
-  /// Bounds of the Hausdorff distance both ways, fraction of the diagonal, for all points and not by samples.
-  double at_least = 0, at_most = 0;
+  bool met = false;  ///< no point of either is farther from the other than the bound, of borders and features too
+  double at_least = 0, at_most = 0;  ///< between the surfaces, as VerifiedDistance
+  VerifiedDistance border;           ///< between the borders
+  VerifiedDistance features;         ///< between the feature edges
   int attempts = 0;
   double seconds = 0;
 };
 
 /// Removes and adds vertices of a result until no point of it or of the surface is farther from the other
-/// than max_error_fraction. Each round fits, verifies, adds vertices where the error is near the bound and
+/// than max_error_fraction, nor any point of their borders and of their feature edges from those of the other. Each round fits, verifies, adds vertices where the error is near the bound and
 /// removes some where what is left stays far below. Reads, writes: as balance_vertices(). Where the bound is
 /// not met the nearest result is left. \pre as fit_vertices(), max_error_fraction above 0 \throw as
 /// fit_vertices()

@@ -41,6 +41,17 @@ class Search {
     look(c, ca, bc, depth + 1);
     look(ab, bc, ca, depth + 1);
   }
+  /// The same of a segment, which is a triangle whose last two corners are one.
+  void look(const Corner& a, const Corner& b, int depth) {
+    const double bound = bound_of(a, b, b);
+    if (bound <= limit_ || bounds.at_least > limit_ || depth == max_depth) {
+      bounds.at_most = std::max(bounds.at_most, bound);
+      return;
+    }
+    const Corner middle = corner(0.5 * (a.place + b.place));
+    look(a, middle, depth + 1);
+    look(middle, b, depth + 1);
+  }
 
  private:
   // The distance to one triangle is convex, so on a piece it is largest at a corner; and the distance to all
@@ -73,6 +84,9 @@ class Search {
 }  // namespace
 
 DistanceBounds farthest_distance(const TriangleTree& from, const TriangleTree& to, double limit) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  if (from.triangles().empty()) return {};
+  if (to.triangles().empty()) return {infinite, infinite};
   std::vector<DistanceBounds> bounds(from.triangles().size());
   tbb::parallel_for(tbb::blocked_range<size_t>(0, bounds.size(), 64), [&](const auto& range) {
     for (size_t i = range.begin(); i != range.end(); ++i) {
@@ -81,7 +95,10 @@ DistanceBounds farthest_distance(const TriangleTree& from, const TriangleTree& t
       const Corner a = search.corner(from.points()[static_cast<size_t>(t[0])]),
                    b = search.corner(from.points()[static_cast<size_t>(t[1])]),
                    c = search.corner(from.points()[static_cast<size_t>(t[2])]);
-      search.look(a, b, c, 0);
+      if (t[1] == t[2])
+        search.look(a, b, 0);
+      else
+        search.look(a, b, c, 0);
       bounds[i] = search.bounds;
     }
   });
