@@ -2,6 +2,8 @@
 #include "anisomesh/remesh.hh"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -38,12 +40,14 @@ std::string missed_bound(const anisomesh::RemeshOptions& options, const anisomes
   const double bound = options.max_error.max_error_fraction;
   const auto beyond = [&](const char* what, double at_least, double at_most) {
     if (at_most <= bound) return std::string();
-    if (!std::isfinite(at_least)) return std::string("there is no ") + what + " of one beside that of the other, ";
+    if (!std::isfinite(at_least))
+      return std::string("there is no ") + what + " of one beside that of the other, ";
     return std::string("some point of the ") + what + " is " + percent(at_least) + " of the diagonal away, ";
   };
   return "the result misses --max-error: " + beyond("surface", found.at_least, found.at_most) +
          beyond("border", found.border.at_least, found.border.at_most) +
-         beyond("features", found.features.at_least, found.features.at_most) + "and " + percent(options.max_error.max_error_fraction) + " was asked for; " +
+         beyond("features", found.features.at_least, found.features.at_most) + "and " +
+         percent(options.max_error.max_error_fraction) + " was asked for; " +
          (kept ? "it was written all the same" : "nothing was written, --keep writes it");
 }
 
@@ -115,10 +119,11 @@ int main(int argc, char* argv[]) {
     command.report()["output"] = output;
     if (missed && !keep) return;
     if (bounded && !missed)
-      command.say("no point of either surface, its border or its features is farther from that of the other than " +
-                  percent(options.max_error.max_error_fraction) + " of the diagonal; some are as far as " +
-                  percent(std::max({report.max_error.at_least, report.max_error.border.at_least,
-                                    report.max_error.features.at_least})));
+      command.say(
+          "no point of either surface, its border or its features is farther from that of the other than " +
+          percent(options.max_error.max_error_fraction) + " of the diagonal; some are as far as " +
+          percent(std::max({report.max_error.at_least, report.max_error.border.at_least,
+                            report.max_error.features.at_least})));
     command.say(output + ": " + apps::mesh_summary(result));
     command.say("  features " + apps::seconds(report.features.seconds) + ", curvature " +
                 apps::seconds(report.curvature.seconds) +

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "anisomesh/compare.hh"
+#include "anisomesh/properties.hh"
 #include "catch.hh"
 #include "fitted.hh"
 #include "numerics/hausdorff.hh"
@@ -50,6 +51,56 @@ TEST_CASE("no point that is only inside a triangle is overlooked", "[max-error]"
   CHECK(found.at_most >= inradius);
   CHECK(found.at_most <= 1.01 * inradius);
   CHECK(detail::farthest_distance(plate, frame, 0.9 * inradius).at_least > 0.9 * inradius);
+}
+
+TEST_CASE("the distance of curves is that of their edges, whatever lies between them", "[max-error]") {
+  // An edge over a bent one: the bend is 0.25 away, the ends are on it.
+  const TriangleTree straight({{0, 0, 0}, {2, 0, 0}}, {{0, 1, 1}}),
+      bent({{0, 0, 0}, {1, 0.25, 0}, {2, 0, 0}}, {{0, 1, 1}, {1, 2, 2}}), none({}, {});
+  for (const auto& found : {detail::farthest_distance(bent, straight, 0.2501),
+                            detail::farthest_distance(straight, bent, 0.2501)}) {
+    CHECK(found.at_least <= found.at_most);
+    CHECK(found.at_most <= 0.2501);
+  }
+  CHECK(std::abs(detail::farthest_distance(bent, straight, 0.2501).at_least - 0.25) < 1e-12);
+  // The middle of the straight edge is nearest to where a normal of the bent one meets it.
+  const double away = 0.25 / std::sqrt(1 + 0.25 * 0.25);
+  CHECK(detail::farthest_distance(straight, bent, 1.01 * away).at_most >= away * (1 - 1e-12));
+  CHECK(detail::farthest_distance(straight, bent, 1.01 * away).at_most <= 1.01 * away);
+  CHECK(std::isinf(detail::farthest_distance(straight, none, 1).at_least));
+  CHECK(detail::farthest_distance(none, straight, 1).at_most == 0);
+}
+
+TEST_CASE("a bound holds for borders and features too, and a feature that is gone misses it", "[max-error]") {
+  const std::string name = GENERATE("half-torus", "octa-flower");
+  INFO(name);
+  auto mesh = shape(name);
+  const SurfaceRef surface = mesh;
+  MaxErrorOptions options;
+  options.max_error_fraction = 0.01;
+  const PolyMesh start = remeshed(mesh, 400);
+  PolyMesh result = start;
+  const MaxErrorReport report = bound_error(surface, result, options);
+  REQUIRE(report.met);
+  for (const auto& found : {report.border, report.features}) {
+    CHECK(found.at_least <= found.at_most);
+    CHECK(found.at_most <= options.max_error_fraction);
+  }
+  CHECK((name == "half-torus" ? report.border : report.features).at_most > 0);
+  // by samples of the input's curves
+  CHECK(fitted::feature_distance(surface, result) <=
+        std::max(report.border.at_most, report.features.at_most) * surface.diagonal() * (1 + 1e-9));
+  if (name == "half-torus") return;
+  PolyMesh bare = start;
+  const auto kind = require_property(bare, property::edge_kind);
+  for (const auto e : bare.edges()) {
+    bare.status(e).set_feature(false);
+    bare.property(kind, e) = static_cast<int>(EdgeKind::conforming);
+  }
+  const MaxErrorReport missed = bound_error(surface, bare, options);
+  CHECK(!missed.met);
+  CHECK(missed.at_most <= options.max_error_fraction);
+  CHECK(std::isinf(missed.features.at_least));
 }
 
 TEST_CASE("a bound is met, verified, and takes fewer vertices where it is looser", "[max-error]") {

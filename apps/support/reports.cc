@@ -141,17 +141,19 @@ Json to_json(const BalanceReport& r) {
 }
 
 Json to_json(const MaxErrorReport& r) {
-  return {{"met", r.met},
-          {"how", "all points of both surfaces, and of their borders and feature edges, by dividing triangles and edges "
-                  "until the bound holds"},
-          {"hausdorff_at_least", r.at_least},
-          {"hausdorff_at_most", r.at_most},
-          {"border_at_least", r.border.at_least},
-          {"border_at_most", r.border.at_most},
-          {"features_at_least", r.features.at_least},
-          {"features_at_most", r.features.at_most},
-          {"attempts", r.attempts},
-          {"seconds", r.seconds}};
+  return {
+      {"met", r.met},
+      {"how",
+       "all points of both surfaces, and of their borders and feature edges, by dividing triangles and edges "
+       "until the bound holds"},
+      {"hausdorff_at_least", r.at_least},
+      {"hausdorff_at_most", r.at_most},
+      {"border_at_least", r.border.at_least},
+      {"border_at_most", r.border.at_most},
+      {"features_at_least", r.features.at_least},
+      {"features_at_most", r.features.at_most},
+      {"attempts", r.attempts},
+      {"seconds", r.seconds}};
 }
 
 void add_json(Json& json, const TraceAndMeshReport& r) {

@@ -99,7 +99,7 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     state = std::make_unique<detail::FitState>(std::move(*state), work, mesh.heirs());
   }
   report_progress(progress, options.rounds / (options.rounds + 1.0));
-  fit(change ? (fit_options.passes + 1) / 2 : fit_options.passes);  // what was changed begins near
+  fit(change ? (3 * fit_options.passes + 3) / 4 : fit_options.passes);  // what was changed begins near
   report.fit.rms_after = rms(state->energy());
   report_progress(progress, 1);
   // A given number of vertices may have cost more than the moves have gained.

@@ -93,9 +93,9 @@ struct Best {
 
   void take(const OpenMesh::PolyMesh& other, const Bounds& found, double limit) {
     const bool meets = found.at_most() <= limit;
-    const bool better =
-        !any || (meets && !met) ||
-        (meets == met && (met ? other.n_vertices() < mesh.n_vertices() : found.at_least() < bounds.at_least()));
+    const bool better = !any || (meets && !met) ||
+                        (meets == met && (met ? other.n_vertices() < mesh.n_vertices()
+                                              : found.at_least() < bounds.at_least()));
     if (!better) return;
     mesh = other;
     bounds = found;

@@ -22,7 +22,8 @@ struct VerifiedDistance {
 
 struct MaxErrorReport {
   BalanceReport balance;
-  bool met = false;  ///< no point of either is farther from the other than the bound, of borders and features too
+  bool met =
+      false;  ///< no point of either is farther from the other than the bound, of borders and features too
   double at_least = 0, at_most = 0;  ///< between the surfaces, as VerifiedDistance
   VerifiedDistance border;           ///< between the borders
   VerifiedDistance features;         ///< between the feature edges
@@ -31,10 +32,10 @@ struct MaxErrorReport {
 };
 
 /// Removes and adds vertices of a result until no point of it or of the surface is farther from the other
-/// than max_error_fraction, nor any point of their borders and of their feature edges from those of the other. Each round fits, verifies, adds vertices where the error is near the bound and
-/// removes some where what is left stays far below. Reads, writes: as balance_vertices(). Where the bound is
-/// not met the nearest result is left. \pre as fit_vertices(), max_error_fraction above 0 \throw as
-/// fit_vertices()
+/// than max_error_fraction, nor any point of their borders and of their feature edges from those of the
+/// other. Each round fits, verifies, adds vertices where the error is near the bound and removes some where
+/// what is left stays far below. Reads, writes: as balance_vertices(). Where the bound is not met the nearest
+/// result is left. \pre as fit_vertices(), max_error_fraction above 0 \throw as fit_vertices()
 MaxErrorReport bound_error(const SurfaceRef& surface, OpenMesh::PolyMesh& result,
                            const MaxErrorOptions& options, const BalanceOptions& balance = {},
                            const FitOptions& fit = {}, const Progress& progress = {});

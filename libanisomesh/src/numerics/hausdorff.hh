@@ -14,8 +14,8 @@ struct DistanceBounds {
 
 /// Bounds of the largest distance of a point of `from` to `to`. Triangles are divided until `at_most` is
 /// within the limit, or some point is found to be beyond it; then `at_most` is still a bound, but no tight
-/// one. Triangles whose last two corners are the same vertex are segments. Infinite if there is nothing in `to`, 0 if there is nothing in
-/// `from`.
+/// one. Triangles whose last two corners are the same vertex are segments. Infinite if there is nothing in
+/// `to`, 0 if there is nothing in `from`.
 DistanceBounds farthest_distance(const TriangleTree& from, const TriangleTree& to, double limit);
 
 }  // namespace anisomesh::detail
