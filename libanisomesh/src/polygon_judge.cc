@@ -18,9 +18,11 @@ constexpr double shape_weight = 2;
 constexpr double error_weight = 0.6;
 constexpr double bent = 3;  // a quad bent too far: worse than two good triangles
 constexpr double least_cosine = 0.3;
-constexpr double averse = 30;      // for each corner where the cosine to the surface is below that
-constexpr double folded = 1e3;     // only where nothing else is left
-constexpr double forbidden = 1e6;  // concave or without area: two folded triangles are better than that
+constexpr double averse = 30;       // for each corner where the cosine to the surface is below that
+constexpr double touching = 5e2;    // itself: only where something would be folded otherwise
+constexpr double folded = 1e3;      // only where nothing else is left
+constexpr double on_side = 1.2e-5;  // of its length: a corner that near is on it
+constexpr double forbidden = 1e6;   // concave or without area: two folded triangles are better than that
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -30,6 +32,21 @@ Vec3d area_vector(const Corners& p) {
   Vec3d sum(0, 0, 0);
   for (size_t i = 1; i + 1 < p.size(); ++i) sum += cross(p[i] - p[0], p[i + 1] - p[0]);
   return sum;
+}
+
+template <class Corners>
+bool has_corner_on_side(const Corners& p) {
+  const size_t n = p.size();
+  for (size_t side = 0; side < n; ++side) {
+    const Vec3d &a = p[side], along = p[(side + 1) % n] - a;
+    const double squared = along.sqrnorm();
+    for (size_t k = 2; k < n; ++k) {
+      const Vec3d from_a = p[(side + k) % n] - a;
+      const double t = squared > 0 ? (from_a | along) / squared : 0;
+      if (t > 0 && t < 1 && (from_a - t * along).sqrnorm() <= on_side * on_side * squared) return true;
+    }
+  }
+  return false;
 }
 
 // Cost of one corner by its inner angle: none up to a right angle, 1 where it is straight.
@@ -155,6 +172,7 @@ double PolygonJudge::quad_cost(const RegionCorners& region, const std::array<int
     shape = std::max(shape, angle_cost(pi - turn));
   }
   if ((normal | reference_normal(region, {quad[0], quad[1], quad[2], quad[3]})) <= 0) cost += 2 * folded;
+  if (has_corner_on_side(p)) cost += touching;
   cost += averse * against(region, {quad[0], quad[1], quad[2], quad[3]}, area);
   cost += shape_weight * shape;
   // Whoever draws it will use the shorter diagonal.
@@ -181,6 +199,8 @@ double PolygonJudge::cost(const RegionCorners& region, const std::vector<std::ve
                            : 1;
   return sum;
 }
+
+bool PolygonJudge::touches_itself(const std::vector<Vec3d>& p) { return has_corner_on_side(p); }
 
 bool PolygonJudge::is_convex(const std::vector<Vec3d>& p) {
   const size_t n = p.size();

@@ -70,6 +70,9 @@ class PolygonJudge {
   double chord_error(const RegionCorners& region, int a, int b) const;
   /// Convex in its plane of best fit, up to a tolerance below the 5 degrees that the result is held to.
   static bool is_convex(const std::vector<Vec3d>& corners);
+  /// Whether a corner lies on a side that it is no end of, as where two sides leave a corner the same way: no
+  /// turn shows that.
+  static bool touches_itself(const std::vector<Vec3d>& corners);
   /// Normal of the surface near a place, see SurfaceLocator.
   Vec3d surface_normal(const Vec2d& uv, const Vec3d& place, OpenMesh::FaceHandle start) const;
 

@@ -199,9 +199,13 @@ bool Soundness::is_sound(const Polygon& polygon, const NetworkGraph& network) co
   return right || !is_folded(polygon, network, normal);
 }
 
-std::vector<int> Soundness::unsound(const std::vector<Polygon>& polygons, const NetworkGraph& network) const {
+std::vector<int> Soundness::unsound(const std::vector<Polygon>& polygons, const NetworkGraph& network,
+                                    bool or_touching) const {
   std::vector<char> bad(polygons.size(), 0);
-  for (size_t p = 0; p < polygons.size(); ++p) bad[p] = !is_sound(polygons[p], network);
+  for (size_t p = 0; p < polygons.size(); ++p)
+    bad[p] =
+        !is_sound(polygons[p], network) || (or_touching && polygons[p].size() > 3 &&
+                                            PolygonJudge::touches_itself(positions_of(polygons[p], network)));
   const PolygonAdjacency adjacency(polygons, network.graph.n_nodes(),
                                    [&](int a, int b) { return !is_feature_edge(network, a, b); });
   for (size_t p = 0; p < polygons.size(); ++p)
@@ -297,7 +301,7 @@ bool Soundness::repair_one(int polygon, std::vector<Polygon>& polygons, PolygonA
 
 std::vector<Polygon> Soundness::repair(std::vector<Polygon>& polygons, const NetworkGraph& network,
                                        int max_degree, bool may_drop) const {
-  std::vector<int> bad = unsound(polygons, network);
+  std::vector<int> bad = unsound(polygons, network, true);
   for (int round = 0; round < max_repairs && !bad.empty(); ++round) {
     size_t repaired = 0;
     PolygonAdjacency adjacency(polygons, network.graph.n_nodes(),
@@ -311,9 +315,10 @@ std::vector<Polygon> Soundness::repair(std::vector<Polygon>& polygons, const Net
     const auto left =
         std::remove_if(polygons.begin(), polygons.end(), [](const auto& p) { return p.empty(); });
     polygons.erase(left, polygons.end());
-    bad = unsound(polygons, network);
+    bad = unsound(polygons, network, true);
     if (repaired == 0) break;
   }
+  bad = unsound(polygons, network, false);
   std::vector<Polygon> left;
   left.reserve(bad.size());
   for (const int p : bad) left.push_back(polygons[at(p)]);

@@ -16,7 +16,7 @@ class Soundness {
   Soundness(const SurfaceRef& surface, const SurfaceLocator& locator, const PolygonJudge& judge, bool convex)
       : surface_(surface), locator_(locator), judge_(judge), convex_(convex) {}
 
-  /// Partitions anew around unsound polygons. \return those that are left
+  /// Partitions anew around polygons that are unsound or touch themselves. \return the unsound that are left
   /// \param may_drop vertices, too, where nothing else helps; otherwise only of polygons that are very thin
   std::vector<std::vector<int>> repair(std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
                                        int max_degree, bool may_drop) const;
@@ -29,7 +29,8 @@ class Soundness {
   bool is_folded(const std::vector<int>& polygon, const NetworkGraph& network, const Vec3d& normal) const;
   bool is_against(const Vec2d& uv, OpenMesh::FaceHandle start, const Vec3d& place, const Vec3d& normal,
                   double diameter) const;
-  std::vector<int> unsound(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network) const;
+  std::vector<int> unsound(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
+                           bool or_touching) const;
   const std::vector<int>* cheapest(const std::vector<std::vector<int>>& paths,
                                    const PolygonAdjacency& adjacency,
                                    const std::vector<std::vector<int>>& polygons, const NetworkGraph& network,

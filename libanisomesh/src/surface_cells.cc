@@ -60,6 +60,8 @@ void SurfaceCells::add_probes(int triangle, Cell& cell) const {
       cell.probes.push_back(probe);
       continue;
     }
+    // A vertex of a feature that went is as near to the cell as the feature is followed, and may be outside.
+    if (network_.origins[at(pinned.vertex)] == Origin::feature) continue;
     const OpenMesh::VertexHandle v(pinned.vertex);
     auto h = mesh.halfedge_handle(v);
     if (mesh.is_boundary(h)) h = mesh.opposite_halfedge_handle(h);
