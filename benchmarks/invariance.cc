@@ -4,7 +4,8 @@
 //
 // A number below 1 is the epsilon, as a fraction of the diagonal. NAME is a file of libcgal-demo (with
 // ANISOMESH_DATA=FOLDER, see data.hh) or a shape. A rotation changes the bounding box, and options that are
-// fractions of its diagonal are given accordingly.
+// fractions of its diagonal are given accordingly. "Farthest" is the largest distance of a vertex of the
+// result from where it is to be, as a fraction of the diagonal, or says that there are others.
 #include <string>
 #include <vector>
 
@@ -30,8 +31,23 @@ OpenMesh::TriMesh load(const std::string& name) {
   return make_shape(name, {4000, true});
 }
 
+/// How far the vertices of a result are from where the change takes those of another, of the diagonal;
+/// "differs" where it has others, or other polygons.
+std::string farthest(const OpenMesh::PolyMesh& expected, const OpenMesh::PolyMesh& found,
+                     const copies::Change& change, double size) {
+  if (expected.n_vertices() != found.n_vertices() || expected.n_faces() != found.n_faces()) return "differs";
+  double most = 0;
+  for (const auto v : expected.vertices())
+    most = std::max(most, (found.point(v) - change.apply(expected.point(v))).norm());
+  for (const auto f : expected.faces())
+    if (copies::corners(expected, f) != copies::corners(found, f)) return "differs";
+  return bench::format("%.1e", most / (size * change.scale));
+}
+
 /// \param box the diagonal of the mesh as it was over that of this one
-void run(const Job& job, const char* what, OpenMesh::TriMesh& mesh, double box) {
+/// \param same how far it is from the result of the mesh as it was
+template <class Same>
+OpenMesh::PolyMesh run(const Job& job, const char* what, OpenMesh::TriMesh& mesh, double box, Same same) {
   RemeshOptions options;
   options.features.angle_degrees = job.angle_degrees;
   options.features.automatic = false;
@@ -41,20 +57,23 @@ void run(const Job& job, const char* what, OpenMesh::TriMesh& mesh, double box) 
   options.curvature.radius_fraction *= box;
   options.smoothing.radius_fraction *= box;
   options.trace.density.max_spacing_fraction *= box;
+  options.mesh.feature_tolerance = 4e-4 * box;
   RemeshReport report;
   auto result = remesh(mesh, options, &report);
+  const OpenMesh::PolyMesh polygons = result;
   const auto rms = [&](OpenMesh::PolyMesh& m) { return 100 * compare(mesh, m).two_sided.rms / box; };
   const double plain = rms(result);
   const size_t vertices = result.n_vertices(), faces = result.n_faces();
   auto fitted = result;
   fit_vertices(mesh, fitted);
   balance_vertices(mesh, result);
-  std::printf("| %s | %s | %.6g | %zu + %zu | %zu | %zu | %zu | %zu | %.5f | %.5f | %.5f, %zu |\n",
+  std::printf("| %s | %s | %.6g | %zu + %zu | %zu | %zu | %zu | %zu | %s | %.5f | %.5f | %.5f, %zu |\n",
               job.name.c_str(), what, report.epsilon_fraction / box, report.trace.min_lines,
               report.trace.max_lines, report.trace.points,
-              report.isotropic.from_umbilics + report.isotropic.random, vertices, faces, plain, rms(fitted),
-              rms(result), result.n_faces());
+              report.isotropic.from_umbilics + report.isotropic.random, vertices, faces,
+              same(polygons).c_str(), plain, rms(fitted), rms(result), result.n_faces());
   std::fflush(stdout);
+  return polygons;
 }
 
 }  // namespace
@@ -65,9 +84,10 @@ int main(int argc, char** argv) {
     return 1;
   }
   std::printf(
-      "| input | copy | epsilon | lines | points | samples | vertices | faces | rms %% | fitted | balanced, "
+      "| input | copy | epsilon | lines | points | samples | vertices | faces | farthest | rms %% | fitted | "
+      "balanced, "
       "faces |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int i = 2; i < argc; ++i) {
     Job job;
     job.name = argv[i];
@@ -77,13 +97,16 @@ int main(int argc, char** argv) {
       job.angle_degrees = std::stod(job.name.substr(colon + 1));
       job.name.resize(colon);
     }
-    const OpenMesh::TriMesh original = load(job.name);
-    auto mesh = original;
+    auto mesh = load(job.name);
+    mesh = copies::representable(mesh, SurfaceRef(mesh).diagonal());
     const double size = SurfaceRef(mesh).diagonal();
-    run(job, "as it is", mesh, 1);
+    const OpenMesh::TriMesh original = mesh;
+    const auto expected =
+        run(job, "as it is", mesh, 1, [](const OpenMesh::PolyMesh&) { return std::string(); });
     for (const auto& change : copies::changes(size)) {
       auto copy = copies::changed(original, change);
-      run(job, change.name, copy, size * change.scale / SurfaceRef(copy).diagonal());
+      run(job, change.name, copy, size * change.scale / SurfaceRef(copy).diagonal(),
+          [&](const OpenMesh::PolyMesh& found) { return farthest(expected, found, change, size); });
     }
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <random>
@@ -21,9 +22,24 @@ struct Change {
   bool renumbers;
 };
 
+/// A million times the size, or up to four times as much.
+inline double far_off(double size) { return std::exp2(21 + std::ceil(std::log2(size))); }
+
+/// The mesh with coordinates of fewer digits, so that moving it far off rounds nothing.
+inline OpenMesh::TriMesh representable(OpenMesh::TriMesh mesh, double size) {
+  const double step = far_off(size) * std::exp2(-51);
+  for (const auto v : mesh.vertices()) {
+    auto p = mesh.point(v);
+    for (size_t k = 0; k < 3; ++k) p[k] = step * std::round(p[k] / step);
+    mesh.set_point(v, p);
+  }
+  return mesh;
+}
+
+/// \param size the diagonal
 inline std::vector<Change> changes(double size) {
   const auto same = [](const Vec3d& p) { return p; };
-  const double far = 1e6 * size;
+  const double far = far_off(size);
   return {
       {"scaled by 1e-6", 1e-6, [](const Vec3d& p) { return 1e-6 * p; }, false},
       {"scaled by 1e6", 1e6, [](const Vec3d& p) { return 1e6 * p; }, false},
@@ -60,6 +76,15 @@ inline OpenMesh::TriMesh changed(const OpenMesh::TriMesh& mesh, const Change& ch
   }
   if (change.renumbers) shuffle(faces);
   for (const auto& corners : faces) result.add_face(corners);
+  return result;
+}
+
+/// The corners of a polygon, the lowest first.
+template <class Mesh>
+std::vector<int> corners(const Mesh& mesh, OpenMesh::FaceHandle face) {
+  std::vector<int> result;
+  for (const auto v : mesh.fv_range(face)) result.push_back(v.idx());
+  std::rotate(result.begin(), std::min_element(result.begin(), result.end()), result.end());
   return result;
 }
 

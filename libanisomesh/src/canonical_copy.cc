@@ -21,6 +21,9 @@ Vec3d shifted(const Vec3d& barycentric, int shift) {
   return there;
 }
 
+/// Diagonals away from which on rounding of coordinates would be felt.
+constexpr double kFar = 16;
+
 /// Copies properties from one mesh to another; those that are not there are removed.
 class PropertyCopier {
  public:
@@ -50,7 +53,22 @@ CanonicalCopy::CanonicalCopy(const SurfaceRef& given)
   copy_properties(given.connectivity(), connectivity_, false);
   copy_.connectivity_ = &connectivity_;
   copy_.canonical_copy_ = this;
-  for (size_t i = 0; i < order_.vertices.size(); ++i) copy_.points_[i] = given.point(order_.vertices[i]);
+  choose_origin();
+  for (size_t i = 0; i < order_.vertices.size(); ++i)
+    copy_.points_[i] = given.point(order_.vertices[i]) - origin_;
+}
+
+// A coordinate of the surface itself along each axis that it is far off on: numbers so near to each other
+// have an exact difference.
+void CanonicalCopy::choose_origin() {
+  Vec3d low = given_.points().front(), high = low;
+  for (const Vec3d& p : given_.points()) {
+    low.minimize(p);
+    high.maximize(p);
+  }
+  const Vec3d& first = given_.point(order_.vertices.front());
+  for (size_t k = 0; k < 3; ++k)
+    if (low[k] > kFar * given_.diagonal() || high[k] < -kFar * given_.diagonal()) origin_[k] = first[k];
 }
 
 // Element by element instead of face by face: what several fans have in common is left as it is.
@@ -180,16 +198,26 @@ void CanonicalCopy::copy_properties(TriConnectivity& from, TriConnectivity& to, 
 
 void CanonicalCopy::write_back() const { copy_properties(copy_.connectivity(), given_.connectivity(), true); }
 
-void CanonicalCopy::move_sources(OpenMesh::PolyConnectivity& result, const std::vector<FaceThere>& there) {
+void CanonicalCopy::move(OpenMesh::PolyMesh& result, const std::vector<FaceThere>& there,
+                         const SurfaceRef& from, const SurfaceRef& to, const Vec3d& by) {
   if (!has_property(result, property::source_face)) return;
   const auto face = require_property(result, property::source_face);
   const auto barycentric = require_property(result, property::source_barycentric);
+  const bool elsewhere = by != Vec3d(0, 0, 0);
   for (const auto v : result.all_vertices()) {
     const int f = result.property(face, v);
-    if (f < 0 || static_cast<size_t>(f) >= there.size()) continue;
-    result.property(barycentric, v) =
-        shifted(result.property(barycentric, v), there[static_cast<size_t>(f)].shift);
-    result.property(face, v) = there[static_cast<size_t>(f)].face;
+    const bool known = f >= 0 && static_cast<size_t>(f) < there.size();
+    Vec3d& b = result.property(barycentric, v);
+    // What lies on the surface is to lie on it there as well, to the last bit.
+    const bool on = known && elsewhere && result.point(v) == position(from, {FaceHandle(f), b});
+    if (known) {
+      b = shifted(b, there[static_cast<size_t>(f)].shift);
+      result.property(face, v) = there[static_cast<size_t>(f)].face;
+    }
+    if (on)
+      result.set_point(v, position(to, {FaceHandle(result.property(face, v)), b}));
+    else if (elsewhere)
+      result.set_point(v, result.point(v) + by);
   }
 }
 

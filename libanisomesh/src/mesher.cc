@@ -92,9 +92,11 @@ void take_more_care(const std::vector<std::vector<int>>& polygons, const Network
     if (near[n]) start.share[n] /= 2;
 }
 
-[[noreturn]] void refuse(const std::vector<int>& polygon, const NetworkGraph& network, size_t count) {
+[[noreturn]] void refuse(const std::vector<int>& polygon, const NetworkGraph& network, size_t count,
+                         const SurfaceRef& surface) {
   Vec3d middle(0, 0, 0);
   for (const int n : polygon) middle += network.positions[at(n)] / static_cast<double>(polygon.size());
+  middle = detail::given_place(surface, middle);
   throw CannotProcess(std::to_string(count) + " polygons would be folded or degenerate, one of them near (" +
                       std::to_string(middle[0]) + ", " + std::to_string(middle[1]) + ", " +
                       std::to_string(middle[2]) + "); smooth the input there or try a smaller epsilon");
@@ -210,7 +212,7 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
       return {};
     }
     ++local.retries;
-    if (local.retries > max_retries) refuse(unsound.front(), network, unsound.size());
+    if (local.retries > max_retries) refuse(unsound.front(), network, unsound.size(), surface);
     take_more_care(unsound, network, local.retries >= patience, start);
   }
   PolygonAttempt done{detail::make_mesh(network, polygons), true};

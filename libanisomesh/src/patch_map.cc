@@ -53,7 +53,8 @@ BorderFrame border_frame(const Patch& patch, const std::vector<Vec2d>& map) {
 }
 
 std::string where(const Patch& patch, int triangle) {
-  const Vec3d& p = patch.points[static_cast<size_t>(patch.triangles[static_cast<size_t>(triangle)][0])];
+  const Vec3d p =
+      patch.origin + patch.points[static_cast<size_t>(patch.triangles[static_cast<size_t>(triangle)][0])];
   return "at (" + std::to_string(p[0]) + ", " + std::to_string(p[1]) + ", " + std::to_string(p[2]) + ")";
 }
 

@@ -85,6 +85,7 @@ Patch patch_of(const SurfaceRef& surface) {
                              : "cut its handles open first"));
   Patch patch;
   patch.points = surface.points();
+  patch.origin = given_place(surface, {0, 0, 0});
   patch.border = std::move(loops.front());
   patch.triangles.reserve(mesh.n_faces());
   for (const auto f : mesh.all_faces()) {

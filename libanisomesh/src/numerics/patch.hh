@@ -15,6 +15,7 @@ struct Patch {
   std::vector<Vec3d> points;
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise seen from outside
   std::vector<int> border;                    ///< the loop, with the surface on its left
+  Vec3d origin{0, 0, 0};                      ///< of the points, for messages
 };
 
 /// What flattening needs of one triangle: nothing but its three edge lengths go in.
