@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "anisomesh/fit.hh"
 #include "anisomesh/io.hh"
 #include "support/command.hh"
 #include "support/options.hh"
@@ -17,13 +18,15 @@ int main(int argc, char* argv[]) {
   anisomesh::TraceOptions trace;
   anisomesh::TargetOptions target;
   anisomesh::MeshOptions polygons;
+  polygons.for_fit = anisomesh::FitOptions().enabled;
   command.input(input, "input", "What anisomesh-flatten wrote, .om");
   command.output(output, "Where to write the surface; only .om keeps what was found");
   apps::add_density_options(command, epsilon, trace);
   apps::add_target_options(command, target);
   apps::add_mesh_options(command, polygons, "Polygons, for a target");
   command.arguments()
-      .add_flag("--fit,!--no-fit", polygons.for_fit, "anisomesh-mesh will fit the polygons")
+      .add_flag("--fit,!--no-fit", polygons.for_fit,
+                "anisomesh-mesh will fit the polygons; --no-fit: it will not")
       ->group("Polygons, for a target");
 
   return command.run(argc, argv, [&] {

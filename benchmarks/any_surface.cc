@@ -2,7 +2,7 @@
 //
 //   ANISOMESH_DATA=FOLDER any_surface [--target FACES] [--feature-angle DEGREES] [--domain
 //   auto|surface|charts]
-//                                     [--largest TRIANGLES] [--fit] [NAME...]
+//                                     [--largest TRIANGLES] [--no-fit] [NAME...]
 //
 // Prints a markdown table, a row for each mesh, smallest first; the target is at most half the triangles of
 // the input. "Features" is the share of the length of the tagged edges that lies within 0.05 % of the
@@ -34,7 +34,7 @@ struct Settings {
   size_t target = 2000, largest = 200000;
   FeatureOptions features;
   Domain domain = Domain::automatic;
-  bool fit = false;
+  bool unfitted = false;
 };
 
 Domain domain_named(const std::string& name) {
@@ -113,7 +113,7 @@ void run(const std::filesystem::path& path, const Settings& settings, bench::Bar
     if (mesh.n_faces() > settings.largest) return;
     RemeshOptions options;
     options.domain = settings.domain;
-    options.fit.enabled = settings.fit;
+    options.fit.enabled = !settings.unfitted;
     options.features = settings.features;
     options.target_faces = std::max<size_t>(4, std::min(settings.target, mesh.n_faces() / 2));
     RemeshReport report;
@@ -142,7 +142,7 @@ int main(int argc, char** argv) {
   arguments.number("--target", settings.target);
   arguments.features("--feature-angle", settings.features);
   arguments.number("--largest", settings.largest);
-  arguments.flag("--fit", settings.fit);
+  arguments.flag("--no-fit", settings.unfitted);
   arguments.value("--domain", [&](const std::string& name) { settings.domain = domain_named(name); });
   const auto names = arguments.read(argc, argv);
   const char* folder = std::getenv("ANISOMESH_DATA");

@@ -123,6 +123,7 @@ std::vector<Vec3d> seam_points(OpenMesh::TriMesh& mesh) {
 OpenMesh::PolyMesh remeshed(OpenMesh::TriMesh& mesh, Domain domain, const Settings& settings,
                             RemeshReport& report) {
   RemeshOptions options;
+  options.fit.enabled = false;
   options.domain = domain;
   options.features = settings.features;
   options.target_faces = std::min(settings.target, mesh.n_faces() / 2);

@@ -33,6 +33,7 @@ void row(const std::string& name, double epsilon, OpenMesh::PolyMesh result, ben
 
 int main(int argc, char** argv) {
   RemeshOptions options;
+  options.fit.enabled = false;
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::strcmp(argv[i], "--cell-tolerance") == 0) options.mesh.cell_tolerance = std::atof(argv[i + 1]);
     if (std::strcmp(argv[i], "--seed-fraction") == 0) options.trace.seed_fraction = std::atof(argv[i + 1]);

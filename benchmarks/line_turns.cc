@@ -121,6 +121,7 @@ int main(int argc, char** argv) {
   if (argc != 3) return std::fprintf(stderr, "line_turns MESH FACES\n"), 2;
   auto mesh = read_surface(argv[1]);
   RemeshOptions options;
+  options.fit.enabled = false;
   options.target_faces = static_cast<size_t>(std::atol(argv[2]));
   RemeshReport report;
   remesh(mesh, options, &report);

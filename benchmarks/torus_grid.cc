@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
   bench::Ruler ruler(input);
 
   RemeshOptions options;
+  options.fit.enabled = false;
   options.target_vertices = static_cast<size_t>(vertices);
   RemeshReport report;
   auto result = remesh(input, options, &report);

@@ -40,9 +40,12 @@ int main() {
   MyTriMesh mesh = make_sheet(60);
   for (const auto v : mesh.vertices()) mesh.data(v).temperature = 20 + static_cast<float>(mesh.point(v)[0]);
 
-  const OpenMesh::PolyMesh result = anisomesh::remesh(mesh);
+  anisomesh::RemeshOptions options;
+  options.fit.enabled = false;
+  const OpenMesh::PolyMesh result = anisomesh::remesh(mesh, options);
 
-  // Every vertex of the result is a point of the input: what you know at its vertices, you know there.
+  // Without the fit every vertex of the result is a point of the input: what you know at its vertices, you
+  // know there.
   const auto source_face = anisomesh::require_property(result, anisomesh::property::source_face);
   const auto source_barycentric =
       anisomesh::require_property(result, anisomesh::property::source_barycentric);

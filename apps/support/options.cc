@@ -226,7 +226,7 @@ void add_mesh_options(Command& command, MeshOptions& options, const std::string&
 void add_fit_options(Command& command, FitOptions& fit, BalanceOptions& balance) {
   CLI::App& app = command.arguments();
   app.add_flag("--fit,!--no-fit", fit.enabled,
-               "Move the vertices off the surface to where the error is least")
+               "Move the vertices off the surface to where the error is least; --no-fit: they stay on it")
       ->group("Fit");
   app.add_option("--fit-passes", fit.passes, "Matched and solved at most so often, >= 1")
       ->type_name("N")

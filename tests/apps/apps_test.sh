@@ -68,16 +68,19 @@ fitted_stages_give_the_same_bytes)
   anisomesh-shapes -q wave --vertices 2000 --irregular -o wave.off
   anisomesh-shapes -q octa-flower --vertices 2000 --irregular -o flower.om
   anisomesh-shapes -q torus --vertices 2000 -o torus.off
-  for run in "wave.off|--target-faces 300|--fit" "wave.off|--target-vertices 300 --follow min-abs|--fit --balance 3" \
-    "flower.om|--epsilon 0.002|--fit --fit-passes 2 --balance 1" "torus.off|--target-faces 200|--fit --balance 0"; do
+  for run in "wave.off|--target-faces 300|" "wave.off|--target-vertices 300 --follow min-abs|--balance 3" \
+    "flower.om|--epsilon 0.002|--fit-passes 2 --balance 1" "torus.off|--target-faces 200|--balance 0"; do
     IFS='|' read -r input density fit <<<"$run"
-    TRACE="$density --fit" MESH=$fit
+    TRACE=$density MESH=$fit
     in_a_row "$input" row.om
     # shellcheck disable=SC2086
     anisomesh-remesh -q "$input" -o one.om $density $fit
     cmp row.om one.om || fail "$run"
+    TRACE="$density --no-fit" MESH=--no-fit
+    in_a_row "$input" row.om
     # shellcheck disable=SC2086
-    anisomesh-remesh -q "$input" -o plain.om $density
+    anisomesh-remesh -q "$input" -o plain.om $density --no-fit
+    cmp row.om plain.om || fail "$run, without the fit"
     ! cmp -s plain.om one.om || fail "$run does nothing"
   done
   ;;

@@ -9,7 +9,7 @@
 namespace anisomesh {
 
 struct FitOptions {
-  bool enabled = false;  ///< remesh() fits only then; fit_vertices() does not look at it
+  bool enabled = true;  ///< remesh() fits only then; fit_vertices() does not look at it
   int passes = 4;        ///< matched and solved at most so often, three quarters as often after a balance; >= 1
   /// Weight of the normals: the squared height of an edge against the surface's normal, relative to the
   /// squared distance; >= 0
