@@ -203,6 +203,7 @@ void check_polygons(const OpenMesh::TriMesh& given, double epsilon, size_t faces
   const double size = SurfaceRef(original).diagonal();
   const auto made = [&](OpenMesh::TriMesh& mesh, double box) {
     RemeshOptions options;
+    options.fit.enabled = false;  // which has ties of its own
     options.features.automatic = false;
     options.target_faces = faces;
     if (faces == 0) options.trace.density.epsilon_fraction = epsilon * box;

@@ -9,6 +9,7 @@
 #include "canonical_copy.hh"
 #include "patch_moves.hh"
 #include "quad_splits.hh"
+#include "unfold.hh"
 
 namespace anisomesh {
 
@@ -110,7 +111,12 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     report.split = split_bent_quads(*state, input, options.split_gain, options.least_quads, mesh);
     if (report.split > 0) work = mesh.mesh();
   }
-  result = worse ? std::move(fitted) : std::move(work);
+  std::vector<OpenMesh::PolyMesh> candidates{result};
+  if (change) candidates.push_back(std::move(fitted));
+  if (!worse) candidates.push_back(std::move(work));
+  const size_t taken = detail::choose_unfolded(surface, candidates);
+  if (taken + 1 < candidates.size()) report.fit.rms_after = taken == 0 ? report.fit.rms_before : rms_fitted;
+  result = std::move(candidates[taken]);
   report.fit.seconds = report.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

@@ -77,7 +77,7 @@ bool is_degenerate(const PolygonSoup& result, size_t face) {
 
 }  // namespace
 
-void measure_folds(const ReferenceSurface& reference, const PolygonSoup& result, Comparison& comparison) {
+std::vector<char> folded_faces(const ReferenceSurface& reference, const PolygonSoup& result) {
   std::vector<char> folded(result.faces.size(), 0);
   tbb::parallel_for(size_t{0}, result.faces.size(), [&](size_t face) {
     folded[face] = !is_degenerate(result, face) && is_turned_over(reference, result, face) ? 1 : 0;
@@ -92,6 +92,11 @@ void measure_folds(const ReferenceSurface& reference, const PolygonSoup& result,
     for (const size_t face : {left, right})
       if (is_against(reference, middle, result.normals[face], result.diameters[face])) folded[face] = 1;
   }
+  return folded;
+}
+
+void measure_folds(const ReferenceSurface& reference, const PolygonSoup& result, Comparison& comparison) {
+  const auto folded = folded_faces(reference, result);
   comparison.folded_faces = static_cast<size_t>(std::count(folded.begin(), folded.end(), 1));
 }
 

@@ -44,6 +44,9 @@ std::vector<Triangle> triangulate_polygon(const std::vector<Vec3d>& corners, con
 /// manifold; put together again, the file shows as it was.
 std::vector<int> merge_by_place(const std::vector<Vec3d>& points);
 
+/// Whether each face is turned over against the reference, or lies folded onto its neighbour.
+std::vector<char> folded_faces(const ReferenceSurface& reference, const PolygonSoup& result);
+
 // Each part fills its own fields of the comparison.
 void measure_distances(const ReferenceSurface& reference, const PolygonSoup& result,
                        const CompareOptions& options, const Progress& progress, Comparison& comparison,

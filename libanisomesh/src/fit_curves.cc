@@ -13,7 +13,7 @@ namespace {
 size_t at(int i) { return static_cast<size_t>(i); }
 
 constexpr double tolerance = 4e-4;  // of the diagonal, what the mesher holds features to
-constexpr int pieces = 2;           // samples on an edge of the input
+constexpr int pieces = 2;           // samples on an edge of the input, beside its ends
 
 }  // namespace
 
@@ -29,7 +29,7 @@ FitCurves::FitCurves(const SurfaceRef& surface, const FitMesh& mesh, const FitMa
     if (!is_feature_or_border(input, e)) continue;
     const Vec3d &a = surface.point(e.v0()), &b = surface.point(e.v1());
     Sample sample;
-    sample.length = (b - a).norm() / pieces;
+    const double length = (b - a).norm();
     std::vector<int> candidates;
     for (const int k : {0, 1}) {
       const auto face = input.face_handle(input.halfedge_handle(e, static_cast<unsigned>(k)));
@@ -38,8 +38,11 @@ FitCurves::FitCurves(const SurfaceRef& surface, const FitMesh& mesh, const FitMa
       for (const int* v = mesh.begin(p); v != mesh.end(p); ++v)
         candidates.insert(candidates.end(), sides_at(*v).begin(), sides_at(*v).end());
     }
-    for (int i = 0; i < pieces; ++i) {
-      sample.place = a + (i + 0.5) / pieces * (b - a);
+    // The ends, which are farthest from a chord, weigh nothing and are only watched.
+    for (int i = -1; i <= pieces; ++i) {
+      const bool end = i < 0 || i == pieces;
+      sample.place = a + std::clamp((i + 0.5) / pieces, 0.0, 1.0) * (b - a);
+      sample.length = end ? 0 : length / pieces;
       sample.side = -1;
       sample.distance = std::numeric_limits<double>::infinity();
       for (const int s : candidates) look(sample.place, s, points, sample);
@@ -79,6 +82,7 @@ void FitCurves::match(const std::vector<Vec3d>& points) {
 void FitCurves::add_terms(const std::vector<Vec3d>& points, double width, double total_area,
                           FitSystem& system) const {
   for (const Sample& sample : samples_) {
+    if (!(sample.length > 0)) continue;
     const auto& side = mesh_.sides[at(sample.side)];
     const Vec3d &a = points[at(side.from)], &b = points[at(side.to)];
     const Vec3d along = b - a, away = sample.place - a - sample.parameter * along;

@@ -23,6 +23,8 @@ namespace {
 constexpr double kWanted = 0.3;
 /// A target buys most where lines leave wide gaps alone and samples go where the surface is farthest.
 constexpr double kSeedFraction = 0.8, kCellTolerance = 4;
+/// Polygons for the fit (MeshOptions::for_fit) in those for none, of the same lines.
+constexpr double kForFit = 0.83;
 
 /// The number of crossings that the density asks for: one for each rectangle of the two spacings.
 class CrossingModel {
@@ -154,7 +156,9 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   LineNetwork lines_of_best;
   bool is_last_best = false;
   detail::EpsilonSearch search;
-  search.crossings = [&](double epsilon) { return model.count(epsilon); };
+  // For as many crossings there are fewer polygons where tolerances are wider.
+  const double share = mesh.for_fit ? kForFit : 1;
+  search.crossings = [&](double epsilon) { return share * model.count(epsilon); };
   search.make = [&, made = 0](double epsilon, bool any) mutable {
     options.density.epsilon_fraction = epsilon;
     is_last_best = false;

@@ -1,0 +1,63 @@
+#include "unfold.hh"
+
+#include <algorithm>
+
+#include "anisomesh/properties.hh"
+#include "compare_parts.hh"
+
+namespace anisomesh::detail {
+
+namespace {
+
+constexpr int max_rounds = 3;
+
+size_t count(const std::vector<char>& folded) {
+  return static_cast<size_t>(std::count(folded.begin(), folded.end(), 1));
+}
+
+/// The corners of folded faces, where they were built from.
+OpenMesh::PolyMesh with_corners_back(const SurfaceRef& surface, const OpenMesh::PolyMesh& mesh,
+                                     const std::vector<char>& folded) {
+  const auto face = require_property(mesh, property::source_face);
+  const auto barycentric = require_property(mesh, property::source_barycentric);
+  OpenMesh::PolyMesh result = mesh;
+  for (const auto f : result.faces()) {
+    if (!folded[static_cast<size_t>(f.idx())]) continue;
+    for (const auto v : f.vertices())
+      result.set_point(v, position(surface, {OpenMesh::FaceHandle(mesh.property(face, v)),
+                                             mesh.property(barycentric, v)}));
+  }
+  return result;
+}
+
+/// \return how many folds are left
+size_t unfold(const SurfaceRef& surface, const ReferenceSurface& reference, OpenMesh::PolyMesh& mesh) {
+  auto folded = folded_faces(reference, PolygonSoup(mesh, FaceDiagonal::shorter));
+  for (int round = 0; round < max_rounds && count(folded) > 0; ++round) {
+    auto moved = with_corners_back(surface, mesh, folded);
+    auto after = folded_faces(reference, PolygonSoup(moved, FaceDiagonal::shorter));
+    if (count(after) >= count(folded)) break;
+    mesh = std::move(moved);
+    folded = std::move(after);
+  }
+  return count(folded);
+}
+
+}  // namespace
+
+size_t choose_unfolded(const SurfaceRef& surface, std::vector<OpenMesh::PolyMesh>& candidates) {
+  const ReferenceSurface reference(surface);
+  size_t allowed = 0;
+  bool is_known = false;  // the first one's folds count only where a later one has any
+  for (size_t i = candidates.size(); i-- > 1;) {
+    const size_t folds = unfold(surface, reference, candidates[i]);
+    if (folds == 0) return i;
+    if (!is_known)
+      allowed = count(folded_faces(reference, PolygonSoup(candidates.front(), FaceDiagonal::shorter)));
+    is_known = true;
+    if (folds <= allowed) return i;
+  }
+  return 0;
+}
+
+}  // namespace anisomesh::detail
