@@ -9,13 +9,14 @@ namespace anisomesh::detail {
 
 namespace {
 
-constexpr int max_rounds = 3;
+constexpr int max_rounds = 4;
 
 size_t count(const std::vector<char>& folded) {
   return static_cast<size_t>(std::count(folded.begin(), folded.end(), 1));
 }
 
-/// The corners of folded faces, where they were built from.
+/// The corners of folded faces, half way back to where they were built from. Not the whole way: two vertices
+/// may have been built from one place.
 OpenMesh::PolyMesh with_corners_back(const SurfaceRef& surface, const OpenMesh::PolyMesh& mesh,
                                      const std::vector<char>& folded) {
   const auto face = require_property(mesh, property::source_face);
@@ -23,9 +24,10 @@ OpenMesh::PolyMesh with_corners_back(const SurfaceRef& surface, const OpenMesh::
   OpenMesh::PolyMesh result = mesh;
   for (const auto f : result.faces()) {
     if (!folded[static_cast<size_t>(f.idx())]) continue;
-    for (const auto v : f.vertices())
-      result.set_point(v, position(surface, {OpenMesh::FaceHandle(mesh.property(face, v)),
-                                             mesh.property(barycentric, v)}));
+    for (const auto v : f.vertices()) {
+      const SurfacePoint source{OpenMesh::FaceHandle(mesh.property(face, v)), mesh.property(barycentric, v)};
+      result.set_point(v, 0.5 * (mesh.point(v) + position(surface, source)));
+    }
   }
   return result;
 }
@@ -36,7 +38,7 @@ size_t unfold(const SurfaceRef& surface, const ReferenceSurface& reference, Open
   for (int round = 0; round < max_rounds && count(folded) > 0; ++round) {
     auto moved = with_corners_back(surface, mesh, folded);
     auto after = folded_faces(reference, PolygonSoup(moved, FaceDiagonal::shorter));
-    if (count(after) >= count(folded)) break;
+    if (count(after) > count(folded)) break;
     mesh = std::move(moved);
     folded = std::move(after);
   }
