@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "anisomesh/features.hh"
+#include "feature_tolerance.hh"
 
 namespace anisomesh::detail {
 
@@ -12,14 +13,13 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-constexpr double tolerance = 4e-4;  // of the diagonal, what the mesher holds features to
-constexpr int pieces = 2;           // samples on an edge of the input, beside its ends
+constexpr int pieces = 2;  // samples on an edge of the input, beside its ends
 
 }  // namespace
 
 FitCurves::FitCurves(const SurfaceRef& surface, const FitMesh& mesh, const FitMatching& matching,
                      const std::vector<Vec3d>& points)
-    : mesh_(mesh), tolerance_(tolerance * surface.diagonal()), sides_at_(at(mesh.n_vertices)) {
+    : mesh_(mesh), tolerance_(asked_feature_tolerance * surface.diagonal()), sides_at_(at(mesh.n_vertices)) {
   for (size_t s = 0; s < mesh.sides.size(); ++s)
     if (mesh.sides[s].on_curve)
       for (const int v : {mesh.sides[s].from, mesh.sides[s].to})

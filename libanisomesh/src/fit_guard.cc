@@ -16,7 +16,6 @@ constexpr double least_fullness = 2e-2;       // or as much as the polygon had b
 constexpr double most_reflex = 2 * pi / 180;  // the result is held to 5 degrees
 constexpr double least_cosine = 0.35;         // between a polygon and its part of the input
 constexpr double least_bend = 0.5;            // between the triangles of a polygon
-constexpr double least_fold = -0.9;           // between neighbours, as for moves
 constexpr int halvings = 5, max_rounds = 100;
 
 }  // namespace

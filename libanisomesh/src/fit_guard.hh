@@ -8,6 +8,9 @@
 
 namespace anisomesh::detail {
 
+/// Cosine of the normals of two neighbours below which one is folded onto the other.
+constexpr double least_fold = -0.9;
+
 class FitGuard {
  public:
   /// \param forms know which part of the input each polygon stands for

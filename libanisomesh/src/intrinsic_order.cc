@@ -3,22 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace anisomesh::detail {
 
 std::vector<int> intrinsic_order(const std::vector<Measures>& measures) {
-  Measures step{0, 0, 0};
-  for (const auto& m : measures)
-    for (size_t k = 0; k < step.size(); ++k) step[k] += std::abs(m[k]);
-  for (double& s : step) s *= kTie / static_cast<double>(std::max<size_t>(measures.size(), 1));
+  std::array<std::vector<double>, 3> steps;
+  for (size_t k = 0; k < steps.size(); ++k) {
+    for (const auto& m : measures) steps[k].push_back(m[k]);
+    steps[k] = in_steps(std::move(steps[k]));
+  }
   using Entry = std::tuple<double, double, double, int>;
   std::vector<Entry> entries;
   entries.reserve(measures.size());
-  const auto rounded = [&](const Measures& m, size_t k) {
-    return step[k] > 0 ? std::round(m[k] / step[k]) : 0.0;
-  };
-  for (const auto& m : measures)
-    entries.emplace_back(rounded(m, 0), rounded(m, 1), rounded(m, 2), static_cast<int>(entries.size()));
+  for (size_t i = 0; i < measures.size(); ++i)
+    entries.emplace_back(steps[0][i], steps[1][i], steps[2][i], static_cast<int>(i));
   std::sort(entries.begin(), entries.end());
   std::vector<int> order;
   order.reserve(entries.size());

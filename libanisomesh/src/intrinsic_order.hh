@@ -4,13 +4,10 @@
 #include <array>
 #include <vector>
 
+#include "rounding.hh"
 #include "surface_arrays.hh"
 
 namespace anisomesh::detail {
-
-/// What is compared is rounded to so much of its mean first, so that what is the same but for rounding counts
-/// as the same.
-constexpr double kTie = 1e-6;
 
 /// Indices by the first of three measures, where these are equal by the next, and where all are by the index.
 using Measures = std::array<double, 3>;

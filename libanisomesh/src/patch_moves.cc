@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+
 #include <limits>
+#include "fit_guard.hh"
 
 namespace anisomesh::detail {
 
@@ -12,14 +14,11 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-constexpr size_t most_corners = 12;  // of a patch
-const double worth_a_look =
-    getenv("WL") ? atof(getenv("WL")) : 1.2;  // mean errors: better polygons are left alone
-constexpr double tried_removals = 0.3;        // of all vertices, those that seem cheapest
-const double worth_adding =
-    getenv("WA") ? atof(getenv("WA")) : 2;  // mean errors: there a vertex may be added
-constexpr double least_fold = -0.9;         // cosine between neighbours
-constexpr double hanging = 3;               // times the error of the input beside it, or the mean one
+constexpr size_t most_corners = 12;     // of a patch
+constexpr double worth_a_look = 1.2;    // mean errors: better polygons are left alone
+constexpr double tried_removals = 0.3;  // of all vertices, those that seem cheapest
+constexpr double worth_adding = 2;      // mean errors: there a vertex may be added
+constexpr double hanging = 3;           // times the error of the input beside it, or the mean one
 
 void sort_by_gain(std::vector<PatchMove>& moves) {
   moves.erase(std::remove_if(moves.begin(), moves.end(), [](const PatchMove& m) { return m.pieces.empty(); }),

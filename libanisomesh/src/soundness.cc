@@ -119,6 +119,11 @@ Topology topology_of(const OpenMesh::TriConnectivity& mesh) {
   return result;
 }
 
+/// Who is beside whom, features being walls.
+PolygonAdjacency adjacency_of(const std::vector<Polygon>& polygons, const NetworkGraph& network) {
+  return {polygons, network.graph.n_nodes(), [&](int a, int b) { return !is_feature_edge(network, a, b); }};
+}
+
 }  // namespace
 
 // Whether the surface around a place faces the other way than `normal`, everywhere within reach. Where it is
@@ -206,8 +211,7 @@ std::vector<int> Soundness::unsound(const std::vector<Polygon>& polygons, const 
     bad[p] =
         !is_sound(polygons[p], network) || (or_touching && polygons[p].size() > 3 &&
                                             PolygonJudge::touches_itself(positions_of(polygons[p], network)));
-  const PolygonAdjacency adjacency(polygons, network.graph.n_nodes(),
-                                   [&](int a, int b) { return !is_feature_edge(network, a, b); });
+  const PolygonAdjacency adjacency = adjacency_of(polygons, network);
   for (size_t p = 0; p < polygons.size(); ++p)
     for (size_t i = 0; i < polygons[p].size(); ++i) {
       const int q = adjacency.neighbor(static_cast<int>(p), i);
@@ -304,8 +308,7 @@ std::vector<Polygon> Soundness::repair(std::vector<Polygon>& polygons, const Net
   std::vector<int> bad = unsound(polygons, network, true);
   for (int round = 0; round < max_repairs && !bad.empty(); ++round) {
     size_t repaired = 0;
-    PolygonAdjacency adjacency(polygons, network.graph.n_nodes(),
-                               [&](int a, int b) { return !is_feature_edge(network, a, b); });
+    PolygonAdjacency adjacency = adjacency_of(polygons, network);
     std::vector<Polygon> waiting;  // the repair of another may change one, which is then left alone
     waiting.reserve(bad.size());
     for (const int p : bad) waiting.push_back(polygons[at(p)]);

@@ -32,12 +32,16 @@ OpenMesh::PolyMesh with_corners_back(const SurfaceRef& surface, const OpenMesh::
   return result;
 }
 
+std::vector<char> folds_of(const ReferenceSurface& reference, const OpenMesh::PolyMesh& mesh) {
+  return folded_faces(reference, PolygonSoup(mesh, FaceDiagonal::shorter));
+}
+
 /// \return how many folds are left
 size_t unfold(const SurfaceRef& surface, const ReferenceSurface& reference, OpenMesh::PolyMesh& mesh) {
-  auto folded = folded_faces(reference, PolygonSoup(mesh, FaceDiagonal::shorter));
+  auto folded = folds_of(reference, mesh);
   for (int round = 0; round < max_rounds && count(folded) > 0; ++round) {
     auto moved = with_corners_back(surface, mesh, folded);
-    auto after = folded_faces(reference, PolygonSoup(moved, FaceDiagonal::shorter));
+    auto after = folds_of(reference, moved);
     if (count(after) > count(folded)) break;
     mesh = std::move(moved);
     folded = std::move(after);
@@ -47,19 +51,15 @@ size_t unfold(const SurfaceRef& surface, const ReferenceSurface& reference, Open
 
 }  // namespace
 
-size_t choose_unfolded(const SurfaceRef& surface, std::vector<OpenMesh::PolyMesh>& candidates) {
+int choose_unfolded(const SurfaceRef& surface, const OpenMesh::PolyMesh& before,
+                    std::vector<OpenMesh::PolyMesh>& candidates) {
   const ReferenceSurface reference(surface);
-  size_t allowed = 0;
-  bool is_known = false;  // the first one's folds count only where a later one has any
-  for (size_t i = candidates.size(); i-- > 1;) {
-    const size_t folds = unfold(surface, reference, candidates[i]);
-    if (folds == 0) return i;
-    if (!is_known)
-      allowed = count(folded_faces(reference, PolygonSoup(candidates.front(), FaceDiagonal::shorter)));
-    is_known = true;
-    if (folds <= allowed) return i;
+  const auto allowed = [&] { return count(folds_of(reference, before)); };
+  for (int i = static_cast<int>(candidates.size()) - 1; i >= 0; --i) {
+    const size_t folds = unfold(surface, reference, candidates[static_cast<size_t>(i)]);
+    if (folds == 0 || folds <= allowed()) return i;
   }
-  return 0;
+  return -1;
 }
 
 }  // namespace anisomesh::detail

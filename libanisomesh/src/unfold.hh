@@ -9,9 +9,10 @@
 namespace anisomesh::detail {
 
 /// Moves the corners of faces that are folded, as compare() judges it, half way to where they were built
-/// from on the surface, and again, as long as that leaves no more. What still has more folds than the first
-/// of the candidates gives way to the one before it. \param candidates each made from the one before \return
-/// which of them was taken
-size_t choose_unfolded(const SurfaceRef& surface, std::vector<OpenMesh::PolyMesh>& candidates);
+/// from on the surface, and again, as long as that leaves no more.
+/// \param candidates each made from the one in front of it, and the first from `before`
+/// \return the index of the last one that has no more folds than `before` then; -1 if there is none
+int choose_unfolded(const SurfaceRef& surface, const OpenMesh::PolyMesh& before,
+                    std::vector<OpenMesh::PolyMesh>& candidates);
 
 }  // namespace anisomesh::detail
