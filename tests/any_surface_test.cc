@@ -349,6 +349,23 @@ TEST_CASE("where features need more faces than are asked for, the rest is not sp
   check_sound(c);
 }
 
+TEST_CASE("a sample that turns a triangle over beside a hole is not taken a second time",
+          "[any_surface][data]") {
+  const auto path = demo_mesh("joint.off");  // a plate with a hole, its faces without a vertex inside
+  if (!path) return skip("joint.off");
+  auto mesh = read_surface(*path);
+  RemeshOptions options;
+  options.features.angle_degrees = 40;
+  for (const double epsilon : {0.02, 0.05}) {  // were refused
+    options.trace.density.epsilon_fraction = epsilon;
+    auto result = remesh(mesh, options);
+    check_sound(compared(mesh, result));
+  }
+  options.target_faces = 223;  // fewer than the features need
+  auto result = remesh(mesh, options);
+  check_sound(compared(mesh, result));
+}
+
 TEST_CASE("a cancel is heard while the surface is coarsened under the lines", "[any_surface]") {
   auto mesh = shape("torus", 6000);
   estimate_curvature(mesh);

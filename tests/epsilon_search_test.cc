@@ -80,18 +80,43 @@ TEST_CASE("a refused epsilon is followed by 0.85 of it, and the search goes on f
   }
 }
 
-TEST_CASE("after the fifth refusal without a result the search gives up with the refusal",
+TEST_CASE("where everything is refused the search ends with the refusal, each epsilon tried once",
           "[epsilon_search]") {
-  MadeUp made;
-  made.refused = [](double, size_t) { return true; };
-  CHECK_THROWS_AS(made.search(1000), CannotProcess);
-  REQUIRE(made.asked.size() == 5);
-  CHECK(made.asked[4] == Approx(std::pow(0.85, 4) * made.asked[0]));
-  CHECK(made.keeps == 0);
-  MadeUp short_of_time = made;
-  short_of_time.asked.clear();
-  CHECK_THROWS_AS(short_of_time.search(1000, 2), CannotProcess);
-  CHECK(short_of_time.asked.size() == 2);
+  for (const int most : {2, 8}) {
+    MadeUp made;
+    made.refused = [](double, size_t) { return true; };
+    CHECK_THROWS_AS(made.search(1000, most), CannotProcess);
+    CHECK(made.asked[1] == Approx(0.85 * made.asked[0]));
+    CHECK(made.asked.size() <= 12);  // each of them costs a remesh
+    for (size_t i = 0; i < made.asked.size(); ++i)
+      for (size_t j = 0; j < i; ++j) CHECK(std::abs(made.asked[i] / made.asked[j] - 1) > 1e-3);
+    CHECK(made.keeps == 0);
+  }
+}
+
+TEST_CASE("no surface is refused while a coarser or finer epsilon has a result", "[epsilon_search]") {
+  for (const double only : {0.3, 0.55, 1.7, 3.0}) {  // times the first guess
+    MadeUp made;
+    made.refused = [&](double epsilon, size_t) {
+      return only < 1 ? epsilon > only * 0.0018 : epsilon < only * 0.0018;
+    };
+    const auto found = made.search(1000);
+    INFO("first result at " << only << " of the first guess");
+    CHECK(made.keeps == 1);
+    CHECK(found.tried.size() == 1);
+    CHECK(found.attempts == static_cast<int>(made.asked.size()));
+  }
+}
+
+TEST_CASE("where the nearest count has no result, one that is less near has", "[epsilon_search]") {
+  MadeUp made;  // counts alone, 3 % fewer at the largest epsilon, and that one cannot be made: as joint's
+  made.only_near = true;
+  made.count = [](double epsilon) { return epsilon < 0.01 ? 4100.0 : 4000.0; };
+  made.refused = [&](double epsilon, size_t) { return made.asked.size() > 2 && epsilon > 0.01; };
+  const auto found = made.search(1000);
+  CHECK(!found.met);
+  CHECK(made.keeps == 1);
+  CHECK(made.kept == Approx(0.0018));
 }
 
 TEST_CASE("refusals after a result leave that result", "[epsilon_search]") {

@@ -1,6 +1,7 @@
 #include "epsilon_search.hh"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,6 +18,7 @@ constexpr double kMet = 0.1;  ///< a count within this fraction of the target me
 /// Where polygons cannot be made, those of an epsilon so much smaller often can, a few times.
 constexpr double kNextAfterRefusal = 0.85;
 constexpr size_t kMostRefusals = 4;
+constexpr int kMostSteps = 3;   ///< of 2, to both sides, where all else was refused
 constexpr double kSame = 1e-3;  ///< logarithm: an epsilon so near to another one gives the same
 /// A count that falls by a smaller power of epsilon is not the density's any more: features, the border or
 /// what the tolerances ask for need as many, and a larger epsilon only spoils what is there.
@@ -102,18 +104,45 @@ Trial trial_of(double epsilon, size_t count, double wanted) {
   return {std::log(epsilon), std::log(std::max(static_cast<double>(count), 0.5) / wanted)};
 }
 
-/// A result where there were only counts so far. \throw CannotProcess after too many refusals
-Trial make_at_any_count(double epsilon, double wanted, const EpsilonSearch& search, FoundEpsilon& found) {
-  for (size_t refusals = 0;; ++refusals) {
+/// Where there may be a result after all: the attempts with a count alone, the nearest first, the nearest
+/// with its next smaller ones; then farther and farther off, to both sides.
+std::vector<double> last_resorts(std::vector<Trial> trials, const std::vector<double>& refused) {
+  std::vector<double> result;
+  std::sort(trials.begin(), trials.end(),
+            [](const Trial& a, const Trial& b) { return std::abs(a.log_ratio) < std::abs(b.log_ratio); });
+  for (const Trial& trial : trials) {
+    result.push_back(std::exp(trial.log_epsilon));
+    while (result.size() <= kMostRefusals) result.push_back(kNextAfterRefusal * result.back());
+  }
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  for (const auto* tried : std::array<const std::vector<double>*, 2>{&refused, &result})
+    for (const double epsilon : *tried) {
+      low = std::min(low, epsilon);
+      high = std::max(high, epsilon);
+    }
+  for (int i = 0; i < kMostSteps; ++i) {
+    result.push_back(std::max(kLowest, low *= 0.5));
+    if ((high *= 2) <= kHighest) result.push_back(high);
+  }
+  return result;
+}
+
+/// A result where there were only counts or refusals so far: no surface is refused while some epsilon has
+/// one. \throw CannotProcess after too many refusals
+Trial make_at_any_count(const std::vector<Trial>& trials, std::vector<double> refused, double wanted,
+                        const EpsilonSearch& search, FoundEpsilon& found) {
+  const std::vector<double> resorts = last_resorts(trials, refused);
+  for (size_t i = 0;; ++i) {
+    if (i + 1 < resorts.size() && is_refused(resorts[i], refused)) continue;
     ++found.attempts;
     try {
-      const size_t count = search.make(epsilon, true).count;
+      const size_t count = search.make(resorts[i], true).count;
       search.keep();
-      found.tried.push_back({epsilon, count});
-      return trial_of(epsilon, count, wanted);
+      found.tried.push_back({resorts[i], count});
+      return trial_of(resorts[i], count, wanted);
     } catch (const CannotProcess&) {
-      if (refusals == kMostRefusals) throw;
-      epsilon *= kNextAfterRefusal;
+      if (i + 1 == resorts.size()) throw;
+      refused.push_back(resorts[i]);
     }
   }
 }
@@ -133,10 +162,7 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
       made = search.make(epsilon, is_last);
     } catch (const CannotProcess&) {
       refused.push_back(epsilon);
-      if (refused.size() > kMostRefusals || is_last) {
-        if (std::isfinite(best_off)) break;
-        throw;
-      }
+      if (refused.size() > kMostRefusals || is_last) break;
       epsilon = after_refusal(epsilon, trials);
       continue;
     }
@@ -155,10 +181,7 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
     const bool stuck = is_tried(epsilon, trials);
     if (met || is_last || stuck || stalled || (found.attempts >= 3 && best_off <= kMet)) break;
   }
-  if (!std::isfinite(best_off)) {
-    epsilon = std::exp(nearest_of(trials).log_epsilon);
-    best_off = make_at_any_count(epsilon, wanted, search, found).off();
-  }
+  if (!std::isfinite(best_off)) best_off = make_at_any_count(trials, refused, wanted, search, found).off();
   found.met = best_off <= kMet;
   return found;
 }

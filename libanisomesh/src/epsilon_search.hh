@@ -29,8 +29,9 @@ struct FoundEpsilon {
 };
 
 /// Seeks the epsilon whose result has `wanted` faces or vertices: a guess from the density, then a secant.
-/// One that is refused is followed by a smaller one, a few times. \throw CannotProcess of the last attempt if
-/// none had a result; what `make` throws else
+/// One that is refused is followed by a smaller one, a few times; where no attempt has a result, coarser and
+/// finer ones are tried, past the number of attempts too. \throw CannotProcess of the last attempt if none had
+/// a result; what `make` throws else
 FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const EpsilonSearch& search);
 
 }  // namespace anisomesh::detail

@@ -18,11 +18,12 @@ constexpr double shape_weight = 2;
 constexpr double error_weight = 0.6;
 constexpr double bent = 3;  // a quad bent too far: worse than two good triangles
 constexpr double least_cosine = 0.3;
-constexpr double averse = 30;       // for each corner where the cosine to the surface is below that
-constexpr double touching = 5e2;    // itself: only where something would be folded otherwise
-constexpr double folded = 1e3;      // only where nothing else is left
-constexpr double on_side = 1.2e-5;  // of its length: a corner that near is on it
-constexpr double forbidden = 1e6;   // concave or without area: two folded triangles are better than that
+constexpr double averse = 30;        // for each corner where the cosine to the surface is below that
+constexpr double touching = 5e2;     // itself: only where something would be folded otherwise
+constexpr double folded = 1e3;       // only where nothing else is left
+constexpr double least_area = 1e-5;  // twice the area over the square of the longest side
+constexpr double on_side = 1.2e-5;   // of its length: a corner that near is on it
+constexpr double forbidden = 1e6;    // concave or without area: two folded triangles are better than that
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -136,6 +137,11 @@ int PolygonJudge::against(const RegionCorners& region, std::initializer_list<int
   return count;
 }
 
+bool PolygonJudge::is_folded(const RegionCorners& region, int a, int b, int c) {
+  const std::array<Vec3d, 3> p{region.position[at(a)], region.position[at(b)], region.position[at(c)]};
+  return (area_vector(p) | reference_normal(region, {a, b, c})) <= 0;
+}
+
 double PolygonJudge::triangle_cost(const RegionCorners& region, int a, int b, int c) const {
   const std::array<Vec3d, 3> p{region.position[at(a)], region.position[at(b)], region.position[at(c)]};
   const Vec3d area = area_vector(p);
@@ -146,7 +152,7 @@ double PolygonJudge::triangle_cost(const RegionCorners& region, int a, int b, in
     widest = std::max(widest, pi - std::atan2(cross(in, out).norm(), in | out));
   }
   double cost = triangle_base + shape_weight * angle_cost(std::max(widest, pi / 2));
-  if (!(area.norm() > 1e-5 * longest)) cost += folded;
+  if (!(area.norm() > least_area * longest)) cost += folded;
   if ((area | reference_normal(region, {a, b, c})) <= 0) cost += folded;
   cost += averse * against(region, {a, b, c}, area);
   // Every inner chord is a side of two pieces.
@@ -162,7 +168,7 @@ double PolygonJudge::quad_cost(const RegionCorners& region, const std::array<int
   const double length = area.norm();
   double longest = 0;
   for (size_t k = 0; k < 4; ++k) longest = std::max(longest, (p[(k + 1) % 4] - p[k]).sqrnorm());
-  if (!(length > 1e-5 * longest)) return 2 * forbidden;
+  if (!(length > least_area * longest)) return 2 * forbidden;
   const Vec3d normal = area / length;
   double shape = 0, cost = 1;
   for (size_t k = 0; k < 4; ++k) {

@@ -66,6 +66,8 @@ class PolygonJudge {
   double quad_cost(const RegionCorners& region, const std::array<int, 4>& quad) const;
   /// Sum over polygons given as indices of corners; one of more than four corners counts as one square.
   double cost(const RegionCorners& region, const std::vector<std::vector<int>>& polygons) const;
+  /// Whether the triangle faces away from the surface at its corners.
+  static bool is_folded(const RegionCorners& region, int a, int b, int c);
   /// Distance of the middle of a chord from the surface along the normal, model units.
   double chord_error(const RegionCorners& region, int a, int b) const;
   /// Convex in its plane of best fit, up to a tolerance below the 5 degrees that the result is held to.

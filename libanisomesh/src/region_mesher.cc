@@ -43,7 +43,10 @@ class RegionMesher {
   double distance(const Probe& probe, int a, int b, int c) const;
   double distance(const Probe& probe, const std::vector<std::array<int, 3>>& triangles) const;
   std::vector<std::array<int, 3>> as_drawn(const std::vector<Piece>& pieces) const;
+  Probe* worst_probe(const SmallTriangulation& triangulation);
   bool add_worst(SmallTriangulation& triangulation, RegionPolygons& result);
+  void drop_last_corner();
+  size_t folds(const SmallTriangulation& triangulation) const;
   double border_distance(const Vec3d& p) const;
   void flip_to_lower_cost(SmallTriangulation& triangulation) const;
 
@@ -110,8 +113,8 @@ double RegionMesher::border_distance(const Vec3d& p) const {
   return nearest;
 }
 
-// Inserts the probe that the triangles are farthest from, rather one in the middle than one at the border.
-bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& result) {
+// The probe that the triangles are farthest from, rather one in the middle than one at the border.
+Probe* RegionMesher::worst_probe(const SmallTriangulation& triangulation) {
   double worst = 0, area = 0;
   for (const auto& t : triangulation.triangles())
     area += 0.5 * cross(corners_.position[at(t[1])] - corners_.position[at(t[0])],
@@ -133,22 +136,51 @@ bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& 
     worst = weighted;
     chosen = &probe;
   }
+  return chosen;
+}
+
+void RegionMesher::drop_last_corner() {
+  corners_.node.pop_back();
+  corners_.uv.pop_back();
+  corners_.position.pop_back();
+  corners_.face.pop_back();
+  corners_.corner_normal.pop_back();
+}
+
+// Triangles that the judge would rather have any other way.
+size_t RegionMesher::folds(const SmallTriangulation& triangulation) const {
+  const auto& all = triangulation.triangles();
+  return static_cast<size_t>(std::count_if(all.begin(), all.end(), [this](const std::array<int, 3>& t) {
+    return judge_.is_folded(corners_, t[0], t[1], t[2]);
+  }));
+}
+
+// Inserts the worst probe. Where vertices of the input have gone, a probe may be pinned to a triangle in
+// whose plane it lies outside: beside the corner of a hole, say, where it is near enough to another one. As a
+// vertex it turns a triangle over. Most such folds are repaired, and the sample is worth it; where one was
+// not, the sample is not taken the next time.
+bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& result) {
+  Probe* chosen = worst_probe(triangulation);
   if (!chosen) return false;
   corners_.node.push_back(-1);
   corners_.uv.push_back(chosen->uv);
   corners_.position.push_back(chosen->position);
   corners_.face.push_back(chosen->point.face);
   corners_.corner_normal.emplace_back(0, 0, 0);
-  if (!triangulation.insert(static_cast<int>(corners_.uv.size()) - 1)) {
-    corners_.node.pop_back();
-    corners_.uv.pop_back();
-    corners_.position.pop_back();
-    corners_.face.pop_back();
-    corners_.corner_normal.pop_back();
-  } else {
-    result.added.push_back(chosen->point);
-  }
+  const SurfacePoint point = chosen->point;
   region_.probes.erase(region_.probes.begin() + (chosen - region_.probes.data()));
+  const SmallTriangulation before = triangulation;
+  if (!triangulation.insert(static_cast<int>(corners_.uv.size()) - 1)) {
+    drop_last_corner();
+    return true;
+  }
+  if (options_.flip_edges) flip_to_lower_cost(triangulation);
+  if (corners_.on_surface && region_.share < 1 && folds(triangulation) > folds(before)) {
+    triangulation = before;
+    drop_last_corner();
+  } else {
+    result.added.push_back(point);
+  }
   return true;
 }
 
@@ -203,8 +235,8 @@ RegionPolygons RegionMesher::run() {
     for (int i = n - static_cast<int>(region_.isotropic); i < n; ++i) triangulation.insert(i);
   if (options_.flip_edges) flip_to_lower_cost(triangulation);
   const size_t most = std::max(max_added, region_.isotropic);
-  while (bounded && result.added.size() < most && add_worst(triangulation, result))
-    if (options_.flip_edges) flip_to_lower_cost(triangulation);
+  while (bounded && result.added.size() < most && add_worst(triangulation, result)) {
+  }
   result.polygons = pieces_of(triangulation);
   return result;
 }

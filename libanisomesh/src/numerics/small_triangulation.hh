@@ -33,7 +33,7 @@ class SmallTriangulation {
   void replace_neighbor(int t, int old_one, int new_one);
   void legalize(int corner);
 
-  const std::vector<OpenMesh::Vec2d>& points_;
+  const std::vector<OpenMesh::Vec2d>* points_;
   std::vector<std::array<int, 3>> triangles_, neighbors_;
   mutable int last_ = 0;
 };
