@@ -1,6 +1,6 @@
 // How far from the surface a given epsilon keeps the result: 99 % of the samples are to lie within 2 epsilon.
 //
-//   epsilon_bound [--cell-tolerance T] [--seed-fraction F]
+//   epsilon_bound [--cell-tolerance T] [--seed-fraction F] [--relax-passes N]
 //
 // Seven shapes with known geometry, some 20,000 vertices each, regular and irregular, four values of epsilon
 // (fractions of the diagonal), no target. One row for each; the exit code is 1 if one of them misses the bar.
@@ -36,6 +36,8 @@ int main(int argc, char** argv) {
   options.fit.enabled = false;
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::strcmp(argv[i], "--cell-tolerance") == 0) options.mesh.cell_tolerance = std::atof(argv[i + 1]);
+    if (std::strcmp(argv[i], "--relax-passes") == 0)
+      options.trace.relax_passes = static_cast<size_t>(std::atoi(argv[i + 1]));
     if (std::strcmp(argv[i], "--seed-fraction") == 0) options.trace.seed_fraction = std::atof(argv[i + 1]);
   }
   bench::Bars bars;

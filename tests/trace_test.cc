@@ -39,6 +39,7 @@ TEST_CASE("in a constant field lines are straight, parallel and at the spacing o
   const double seed_fraction = GENERATE(0.0, 0.8);
   TraceOptions options = with_epsilon(0.001);
   options.seed_fraction = seed_fraction;
+  if (seed_fraction == 0.8) options.relax_passes = 0;  // both as for a target
   trace_lines(mesh, options);
   const SurfaceRef surface = mesh;
   size_t gaps = 0, uneven = 0;
@@ -138,12 +139,12 @@ GapCount count_gaps(const std::vector<CircleArc>& arcs, LineKind kind, const Den
 
 }  // namespace
 
-TEST_CASE("relaxed lines on a half torus are spaced by equation 6 within a quarter for nine samples of ten",
+TEST_CASE("lines on a half torus are spaced by equation 6 within a quarter for nine samples of ten",
           "[trace]") {
   auto mesh = traced::shape("half-torus", 20000);
-  TraceOptions options = with_epsilon(0.0015);
-  options.density.max_slope = 2;  // next to what equation 6 asks for itself
-  options.relax_passes = 5;
+  const bool graded = GENERATE(true, false);
+  TraceOptions options = with_epsilon(graded ? GENERATE(0.001, 0.0015, 0.0025) : 0.0015);
+  if (!graded) options.density.max_slope = 2;  // next to what equation 6 asks for itself
   trace_lines(mesh, options);
   const SurfaceRef surface = mesh;
   const Density density(options.density, surface.diagonal(), 0);
@@ -155,12 +156,12 @@ TEST_CASE("relaxed lines on a half torus are spaced by equation 6 within a quart
     const GapCount count = count_gaps(arcs, kind, density);
     INFO((kind == LineKind::min ? "min" : "max"));
     // By themselves max lines fall short of nine of ten (docs/lines.md).
-    CHECK(count.within >= (kind == LineKind::min ? 0.9 : 0.8) * count.all);
+    CHECK(count.within >= (kind == LineKind::min ? 0.9 : graded ? 0.7 : 0.8) * count.all);
     both.within += count.within, both.all += count.all;
     both.area_within += count.area_within / count.area, both.area += 1;
   }
   CHECK(both.within >= 0.9 * both.all);
-  CHECK(both.area_within >= 0.9 * both.area);
+  CHECK(both.area_within >= (graded ? 0.85 : 0.9) * both.area);
 }
 
 TEST_CASE("no gap is left between the meridians of a dome, although some run into its spherical top",

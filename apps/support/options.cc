@@ -147,8 +147,10 @@ void add_density_options(Command& command, EpsilonFlags& epsilon, TraceOptions& 
                  "Lines shorter than so many spacings of the other kind are dropped")
       ->type_name("N")
       ->group("Density");
-  app.add_option("--relax-passes", options.relax_passes,
-                 "Passes that move, shorten and lengthen lines after they are placed, for even gaps")
+  app.add_option(
+         "--relax-passes", options.relax_passes,
+         "Passes that move, shorten and lengthen lines after they are placed, for even gaps; by default "
+         "5 where --epsilon is given and the surface has no umbilics, else 0")
       ->type_name("N")
       ->group("Density");
   app.add_option("--seed", options.seed, "Of the random samples that look for gaps")

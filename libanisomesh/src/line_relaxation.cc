@@ -298,7 +298,8 @@ void Relaxation::fill_beside(size_t which) {
 
 bool Relaxation::run(const std::function<bool(double)>& going_on) {
   constexpr double kWhere[] = {0.5, 0.25, 0.75, 0.1, 0.9};
-  for (size_t pass = 0; pass < options_.relax_passes; ++pass)
+  const size_t passes = options_.relax_passes.value_or(0);
+  for (size_t pass = 0; pass < passes; ++pass)
     for (const bool moving : {true, false})
       for (size_t i = 0, end = lines_.size(); i < end; ++i) {
         if (lines_[i].points.size() < 3) continue;
@@ -308,7 +309,7 @@ bool Relaxation::run(const std::function<bool(double)>& going_on) {
           move(i, kWhere[pass % 5]);
         const double done = static_cast<double>(pass) + (moving ? 0 : 0.5) +
                             0.5 * static_cast<double>(i) / static_cast<double>(end);
-        if (!going_on(done / static_cast<double>(options_.relax_passes))) return false;
+        if (!going_on(done / static_cast<double>(passes))) return false;
       }
   return true;
 }

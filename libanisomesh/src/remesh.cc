@@ -34,6 +34,7 @@ OpenMesh::PolyMesh remesh_within(const SurfaceRef& surface, const RemeshOptions&
   MeshOptions mesh = options.mesh;
   trace.density.epsilon_fraction = options.max_error.max_error_fraction;
   if (trace.seed_fraction == 0) trace.seed_fraction = std::max(trace.stop_fraction, bound_seed_fraction);
+  if (!trace.relax_passes) trace.relax_passes = 0;
   if (mesh.cell_tolerance == 0) mesh.cell_tolerance = bound_cell_tolerance;
   OpenMesh::PolyMesh best;
   const double count = options.max_error.max_attempts;

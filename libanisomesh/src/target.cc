@@ -121,6 +121,7 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   MeshOptions polygons = mesh;
   if (wanted > 0 && options.seed_fraction == 0)
     options.seed_fraction = std::max(options.stop_fraction, kSeedFraction);
+  if (wanted > 0 && !options.relax_passes) options.relax_passes = 0;
   if (wanted > 0 && polygons.cell_tolerance == 0) polygons.cell_tolerance = kCellTolerance;
   TraceAndMeshReport done;
   // With `any` count, or only one that is near the target, worth being made sound.

@@ -18,6 +18,9 @@ namespace {
 // With these 99 % of the samples of seven shapes lie within 2 epsilon (benchmarks/epsilon_bound).
 constexpr double seed_fraction_by_epsilon = 0.7, cell_tolerance_by_epsilon = 2;
 
+// Near umbilics lines are too close for even gaps to buy anything. [docs/lines.md]
+constexpr size_t passes_without_umbilics = 5;
+
 Line as_line(const detail::TracedLine& traced, LineKind kind) {
   Line line;
   line.kind = kind;
@@ -31,7 +34,7 @@ Line as_line(const detail::TracedLine& traced, LineKind kind) {
 // A pass of relaxing takes about as long as to place the lines.
 detail::PlacedLines lines_of_kind(const SurfaceRef& surface, const detail::Domain& domain, LineKind kind,
                                   const TraceOptions& options, const std::function<bool(double)>& going_on) {
-  const double passes = static_cast<double>(options.relax_passes);
+  const double passes = static_cast<double>(options.relax_passes.value_or(0));
   bool whole = true;
   const auto reached = [&](double fraction) { return whole = going_on(fraction / (1 + passes)); };
   detail::PlacedLines placed = detail::place_lines(domain, kind, options, reached);
@@ -65,6 +68,7 @@ TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& given, co
   if (options.seed_fraction == 0)
     options.seed_fraction = std::max(options.stop_fraction, seed_fraction_by_epsilon);
   const auto domain = detail::make_domain(surface, options.density, options.follow);
+  if (!options.relax_passes) options.relax_passes = domain->umbilics().empty() ? passes_without_umbilics : 0;
   report_progress(progress, 0);
   detail::PlacedLines both[2];  // they know nothing of each other: the same as one after the other
   const auto place = [&](LineKind kind) {

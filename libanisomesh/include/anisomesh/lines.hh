@@ -2,6 +2,7 @@
 // that make them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "anisomesh/density.hh"
@@ -55,8 +56,9 @@ struct TraceOptions {
   double seed_fraction = 0;
   double min_crossings = 1.5;  ///< a shorter line, in spacings of the other kind, is dropped; >= 0
   /// Passes over all lines after they are placed, in which each is moved, shortened or lengthened so that
-  /// gaps are within 25 % of what is wanted over most of the surface. 0: lines stay where they were placed
-  size_t relax_passes = 0;
+  /// gaps are within 25 % of what is wanted over most of the surface. 0: lines stay where they were placed.
+  /// None given: 5 where epsilon is given and there is no umbilic, else 0
+  std::optional<size_t> relax_passes;
   unsigned seed = 1;      ///< of the random coverage check
   void validate() const;  ///< \throw InvalidOption
 };
