@@ -199,11 +199,12 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
     local.convexity_splits = set.convexity_splits;
     local.conforming_edges = set.conforming_edges;
     polygons = std::move(set.polygons);
-    const detail::Soundness soundness(surface, drawing->locator(), judge, options.convex);
+    detail::Soundness soundness(surface, drawing->locator(), judge, options.convex);
     soundness.require_topology(polygons);
-    const auto unsound = soundness.repair(polygons, network, options.max_degree, local.retries >= patience);
+    auto unsound = soundness.repair(polygons, network, options.max_degree, local.retries >= patience);
     local.polygon_seconds += stopwatch.lap();
     report_progress(progress, 0.8);
+    if (unsound.empty() && local.retries < patience) unsound = soundness.coincident(polygons, network);
     if (unsound.empty()) break;
     count_polygons(polygons, local);
     if (!is_wanted(local.vertices, local.faces)) {

@@ -208,9 +208,10 @@ std::vector<int> Soundness::unsound(const std::vector<Polygon>& polygons, const 
                                     bool or_touching) const {
   std::vector<char> bad(polygons.size(), 0);
   for (size_t p = 0; p < polygons.size(); ++p)
-    bad[p] =
-        !is_sound(polygons[p], network) || (or_touching && polygons[p].size() > 3 &&
-                                            PolygonJudge::touches_itself(positions_of(polygons[p], network)));
+    bad[p] = !is_sound(polygons[p], network) ||
+             (or_touching &&
+              ((polygons[p].size() > 3 && PolygonJudge::touches_itself(positions_of(polygons[p], network))) ||
+               coincident_.has_one(polygons[p], network)));
   const PolygonAdjacency adjacency = adjacency_of(polygons, network);
   for (size_t p = 0; p < polygons.size(); ++p)
     for (size_t i = 0; i < polygons[p].size(); ++i) {
@@ -255,7 +256,8 @@ const std::vector<int>* Soundness::cheapest(const std::vector<std::vector<int>>&
     for (Polygon& piece : pieces) {
       if (corners.has_forbidden(piece)) cost = std::numeric_limits<double>::infinity();
       for (int& i : piece) i = corners.node[at(i)];
-      if (!is_sound(piece, network)) cost = std::numeric_limits<double>::infinity();
+      if (!is_sound(piece, network) || coincident_.has_one(piece, network))
+        cost = std::numeric_limits<double>::infinity();
     }
     cost -= less ? static_cast<double>(path.size()) : judge_.cost(corners, before);
     if (!(cost < best)) continue;
@@ -304,7 +306,8 @@ bool Soundness::repair_one(int polygon, std::vector<Polygon>& polygons, PolygonA
 }
 
 std::vector<Polygon> Soundness::repair(std::vector<Polygon>& polygons, const NetworkGraph& network,
-                                       int max_degree, bool may_drop) const {
+                                       int max_degree, bool may_drop) {
+  coincident_ = {polygons, network};
   std::vector<int> bad = unsound(polygons, network, true);
   for (int round = 0; round < max_repairs && !bad.empty(); ++round) {
     size_t repaired = 0;
@@ -318,6 +321,7 @@ std::vector<Polygon> Soundness::repair(std::vector<Polygon>& polygons, const Net
     const auto left =
         std::remove_if(polygons.begin(), polygons.end(), [](const auto& p) { return p.empty(); });
     polygons.erase(left, polygons.end());
+    coincident_ = {polygons, network};
     bad = unsound(polygons, network, true);
     if (repaired == 0) break;
   }
@@ -326,6 +330,14 @@ std::vector<Polygon> Soundness::repair(std::vector<Polygon>& polygons, const Net
   left.reserve(bad.size());
   for (const int p : bad) left.push_back(polygons[at(p)]);
   return left;
+}
+
+std::vector<Polygon> Soundness::coincident(const std::vector<Polygon>& polygons,
+                                           const NetworkGraph& network) const {
+  std::vector<Polygon> result;
+  for (const Polygon& p : polygons)
+    if (coincident_.has_one(p, network)) result.push_back(p);
+  return result;
 }
 
 void Soundness::require_topology(const std::vector<Polygon>& polygons) const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "coincident_sides.hh"
 #include "network_graph.hh"
 #include "polygon_adjacency.hh"
 #include "polygon_judge.hh"
@@ -16,10 +17,13 @@ class Soundness {
   Soundness(const SurfaceRef& surface, const SurfaceLocator& locator, const PolygonJudge& judge, bool convex)
       : surface_(surface), locator_(locator), judge_(judge), convex_(convex) {}
 
-  /// Partitions anew around polygons that are unsound or touch themselves. \return the unsound that are left
+  /// Partitions anew around polygons that are unsound or touch themselves or each other. \return the unsound that are left
   /// \param may_drop vertices, too, where nothing else helps; otherwise only of polygons that are very thin
   std::vector<std::vector<int>> repair(std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
-                                       int max_degree, bool may_drop) const;
+                                       int max_degree, bool may_drop);
+  /// Those that repair() has left with a side that lies on one between other nodes, and need not.
+  std::vector<std::vector<int>> coincident(const std::vector<std::vector<int>>& polygons,
+                                           const NetworkGraph& network) const;
   /// \throw CannotProcess if the polygons are not a manifold with the input's Euler characteristic and border
   void require_topology(const std::vector<std::vector<int>>& polygons) const;
 
@@ -43,6 +47,7 @@ class Soundness {
   const SurfaceLocator& locator_;
   const PolygonJudge& judge_;
   bool convex_;
+  CoincidentSides coincident_;  // of the polygons that are being repaired
 };
 
 }  // namespace anisomesh::detail
