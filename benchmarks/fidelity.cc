@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <sstream>
 #include <vector>
 
@@ -24,18 +25,17 @@ namespace {
 
 struct Ours {
   OpenMesh::PolyMesh mesh;
-  double fit_seconds = 0, seconds = 0;
+  double seconds = 0;  ///< of the processor, all threads: the machine may be busy with other work
 };
 
 Ours remeshed(OpenMesh::TriMesh mesh, size_t vertices, bool fit) {
   RemeshOptions options;
   options.target_vertices = vertices;
   options.fit.enabled = fit;
-  RemeshReport report;
   Ours ours;
-  ours.mesh = remesh(mesh, options, &report);
-  ours.fit_seconds = report.fit.seconds;
-  ours.seconds = report.seconds;
+  const std::clock_t start = std::clock();
+  ours.mesh = remesh(mesh, options);
+  ours.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   return ours;
 }
 
@@ -43,7 +43,7 @@ void print_head() {
   std::printf(
       "| input | tool | vertices | rms %% | hausdorff %% | normal | of polygons | quads %% | align | bend %% "
       "| folded, not "
-      "manifold | topology | fit, of all s |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "manifold | topology | s |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
 }
 
 void print_row(const std::string& input, const char* tool, const Comparison& c, const std::string& seconds) {
@@ -65,14 +65,14 @@ void compare_tools(const std::string& name, const OpenMesh::TriMesh& input, cons
                    size_t vertices, bool smooth, bool with_plain, const bench::Folder& folder,
                    bench::Bars& bars) {
   bench::Ruler ruler(input);
+  Ours plain;
   if (with_plain) {
-    Ours plain = remeshed(input, vertices, false);
+    plain = remeshed(input, vertices, false);
     print_row(name, "no fit", ruler(plain.mesh), bench::format("%.2f", plain.seconds));
   }
   Ours fitted = remeshed(input, vertices, true);
   const Comparison c = ruler(fitted.mesh);
-  print_row(name, "**fit**", c,
-            bench::format("%.2f", fitted.fit_seconds) + ", " + bench::format("%.2f", fitted.seconds));
+  print_row(name, "**fit**", c, bench::format("%.2f", fitted.seconds));
   const auto check = [&](bool kept, const std::string& bar) {
     bars.check(kept, named(name, vertices, bar), false);
   };
@@ -103,8 +103,9 @@ void compare_tools(const std::string& name, const OpenMesh::TriMesh& input, cons
       c.folded_faces + c.non_manifold_edges + c.non_manifold_vertices + c.t_junctions == 0 && c.same_topology,
       "folded, not manifold or of another topology");
   check(c.mean_planarity < 0.05, "bend " + bench::format("%.3f", c.mean_planarity) + " (0.05)");
-  const double more = fitted.fit_seconds / (fitted.seconds - fitted.fit_seconds);
-  check(more <= 0.3, "time over that without " + bench::format("%.2f", more) + " (0.30)");
+  if (!with_plain) return;
+  const double ratio = fitted.seconds / plain.seconds;
+  check(ratio <= 1.3, "time over that without " + bench::format("%.2f", ratio) + " (1.3)");
 }
 
 void scans(const std::vector<std::string>& names, const std::vector<size_t>& counts, bool with_plain,

@@ -21,6 +21,7 @@ struct MadeUp {
   std::vector<double> asked;
   double last = 0, kept = 0;  ///< epsilon
   int keeps = 0;
+  double enough_below = 0, enough_above = 0;
 
   detail::FoundEpsilon search(double wanted, int max_attempts = 8) {
     TargetOptions options;
@@ -39,6 +40,8 @@ struct MadeUp {
       kept = last;
       ++keeps;
     };
+    steps.enough_below = enough_below;
+    steps.enough_above = enough_above;
     return detail::search_epsilon(wanted, options, steps);
   }
 };
@@ -61,6 +64,17 @@ TEST_CASE("a count that goes by another law is met all the same", "[epsilon_sear
     INFO("power " << power << ", " << found.attempts << " attempts");
     CHECK(found.met);
     CHECK(made.count(made.kept) == Approx(1000).epsilon(0.1));
+  }
+}
+
+TEST_CASE("what is near enough may be farther below a target than above it", "[epsilon_search]") {
+  for (const double off : {0.91, 0.93, 1.05, 1.07}) {
+    MadeUp made;
+    made.count = [off](double epsilon) { return 1.8 * off / epsilon; };
+    made.enough_below = 0.08;
+    made.enough_above = 0.06;
+    INFO(off);
+    CHECK(made.search(1000).attempts == (off == 0.93 || off == 1.05 ? 1 : 2));
   }
 }
 

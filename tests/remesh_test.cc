@@ -162,6 +162,28 @@ TEST_CASE("a target of faces or vertices is met within ten percent", "[remesh]")
   }
 }
 
+TEST_CASE("with the fit a number of vertices is met exactly, faces nearly", "[remesh]") {
+  for (const char* name : {"saddle", "half-torus", "wave"}) {
+    auto mesh = make_shape(name, {5000, true});
+    INFO(name);
+    RemeshOptions options;
+    options.target_vertices = 500;
+    CHECK(remesh(mesh, options).n_vertices() == 500);
+    CHECK(mesh.property(require_property(mesh, property::target_vertices)) == 500);
+    options.fit.enabled = false;
+    remesh(mesh, options);
+    CHECK(mesh.property(require_property(mesh, property::target_vertices)) == 0);
+    options.fit.enabled = true;
+    options.target_vertices = 0;
+    options.target_faces = 500;
+    CHECK(static_cast<double>(remesh(mesh, options).n_faces()) == Approx(500).epsilon(0.03));
+    options.target_faces = 0;
+    options.trace.density.epsilon_fraction = 0.002;
+    remesh(mesh, options);
+    CHECK(mesh.property(require_property(mesh, property::target_vertices)) == 0);
+  }
+}
+
 TEST_CASE("what the mesh keeps after a search is what the result was made of", "[remesh]") {
   auto mesh = make_shape("dome", {1500, true});
   RemeshOptions options;

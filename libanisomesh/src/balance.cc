@@ -6,6 +6,7 @@
 #include <string>
 
 #include "anisomesh/errors.hh"
+#include "anisomesh/properties.hh"
 #include "canonical_copy.hh"
 #include "patch_moves.hh"
 #include "quad_splits.hh"
@@ -45,6 +46,17 @@ void exchange(PatchChanges& changes, const std::vector<PatchMove>& removals,
   }
 }
 
+/// How many vertices there are to be in the end.
+long wanted_vertices(const SurfaceRef& surface, const OpenMesh::PolyMesh& result,
+                     const BalanceOptions& options) {
+  if (options.target_vertices > 0) return static_cast<long>(options.target_vertices);
+  const auto& mesh = surface.connectivity();
+  const int of_search = has_property(mesh, property::target_vertices)
+                            ? mesh.property(require_property(mesh, property::target_vertices))
+                            : 0;
+  return of_search > 0 ? of_search : static_cast<long>(result.n_vertices());
+}
+
 }  // namespace
 
 void BalanceOptions::validate() const {
@@ -78,8 +90,8 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     report.fit.passes += state->improve_often(passes);
     for (const auto v : work.vertices()) work.set_point(v, state->points()[static_cast<size_t>(v.idx())]);
   };
-  const long wanted =
-      static_cast<long>(options.target_vertices > 0 ? options.target_vertices : result.n_vertices());
+  const size_t n_before = result.n_vertices();
+  const long wanted = wanted_vertices(surface, result, options);
   const bool change = options.rounds > 0 && (options.max_degree == 3 || options.max_degree == 4);
   for (int round = 0; change && round < options.rounds; ++round) {
     report_progress(progress, round / (options.rounds + 1.0));
@@ -91,9 +103,10 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     const detail::PatchMoves moves(surface, input, *state, options);
     PatchMesh mesh(work);
     PatchChanges changes(mesh);
-    const auto removals = moves.removals(mesh), additions = moves.additions(mesh);
+    const long surplus = static_cast<long>(work.n_vertices()) - wanted;
+    const auto removals = moves.removals(mesh), additions = moves.additions(mesh, surplus < 0);
     const auto repartitions = moves.repartitions(mesh);
-    exchange(changes, removals, additions, static_cast<long>(work.n_vertices()) - wanted, report);
+    exchange(changes, removals, additions, surplus, report);
     for (const PatchMove& move : repartitions)
       if (changes.is_open(move)) changes.apply(move), ++report.parted;
     work = mesh.mesh();
@@ -103,8 +116,10 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
   fit(change ? (3 * fit_options.passes + 3) / 4 : fit_options.passes);  // what was changed begins near
   report.fit.rms_after = rms(state->energy());
   report_progress(progress, 1);
-  // A given number of vertices may have cost more than the moves have gained.
-  const bool worse = change && options.target_vertices == 0 && report.fit.rms_after > rms_fitted;
+  // A given number of vertices may have cost more than the moves have gained; error falls as 1 / vertices.
+  const bool worse = change && options.target_vertices == 0 &&
+                     report.fit.rms_after * static_cast<double>(work.n_vertices()) >
+                         rms_fitted * static_cast<double>(n_before);
   if (worse) report.fit.rms_after = rms_fitted;
   if (change && !worse) {
     PatchMesh mesh(work);

@@ -170,7 +170,8 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
     trials.push_back(trial_of(epsilon, made.count, wanted));
     const double off = trials.back().off();
     const bool stalled = is_stalled(trials), first = !std::isfinite(best_off);
-    const bool met = off <= options.tolerance || (found.attempts >= 3 && off <= kMet);
+    const bool enough = off <= (trials.back().log_ratio < 0 ? search.enough_below : search.enough_above);
+    const bool met = off <= options.tolerance || enough || (found.attempts >= 3 && off <= kMet);
     if (made.has_result && (met || first || (off < best_off && !stalled))) {
       best_off = off;
       search.keep();

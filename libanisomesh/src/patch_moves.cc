@@ -18,7 +18,8 @@ constexpr size_t most_corners = 12;     // of a patch
 constexpr double worth_a_look = 1.2;    // mean errors: better polygons are left alone
 constexpr double tried_removals = 0.3;  // of all vertices, those that seem cheapest
 constexpr double worth_adding = 2;      // mean errors: there a vertex may be added
-constexpr double hanging = 3;           // times the error of the input beside it, or the mean one
+constexpr double worth_adding_where_lacking = 1.2;
+constexpr double hanging = 3;  // times the error of the input beside it, or the mean one
 
 void sort_by_gain(std::vector<PatchMove>& moves) {
   moves.erase(std::remove_if(moves.begin(), moves.end(), [](const PatchMove& m) { return m.pieces.empty(); }),
@@ -326,9 +327,10 @@ std::vector<PatchMove> PatchMoves::removals(const PatchMesh& mesh) const {
   return moves;
 }
 
-std::vector<PatchMove> PatchMoves::additions(const PatchMesh& mesh) const {
+std::vector<PatchMove> PatchMoves::additions(const PatchMesh& mesh, bool lacking) const {
+  const double worth = lacking ? worth_adding_where_lacking : worth_adding;
   std::vector<char> wanted;
-  for (const double error : error_) wanted.push_back(error > worth_adding * mean_error_);
+  for (const double error : error_) wanted.push_back(error > worth * mean_error_);
   return additions_to(mesh, wanted, 0);
 }
 

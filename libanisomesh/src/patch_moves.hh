@@ -32,8 +32,8 @@ class PatchMoves {
   std::vector<PatchMove> repartitions(const PatchMesh& mesh) const;
   /// Vertices whose removal costs least, that first.
   std::vector<PatchMove> removals(const PatchMesh& mesh) const;
-  /// Vertices to add, best first.
-  std::vector<PatchMove> additions(const PatchMesh& mesh) const;
+  /// Vertices to add, best first. \param lacking are vertices: other polygons than the worst are tried too
+  std::vector<PatchMove> additions(const PatchMesh& mesh, bool lacking) const;
   /// Vertices to add where a sample is farther than this, best first.
   std::vector<PatchMove> additions_beyond(const PatchMesh& mesh, double distance) const;
 

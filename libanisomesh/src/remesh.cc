@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "canonical_copy.hh"
 
@@ -85,6 +86,11 @@ OpenMesh::PolyMesh remesh_tagged(const SurfaceRef& surface, const RemeshOptions&
     if (options.fit.enabled)
       done.balance = balance_vertices(surface, result, balance, options.fit, sub_progress(progress, 0.8, 1));
     done.fit = done.balance.fit;
+    if (const double wanted = static_cast<double>(std::max(options.target_faces, options.target_vertices));
+        options.fit.enabled && wanted > 0) {
+      const size_t count = options.target_faces > 0 ? result.n_faces() : result.n_vertices();
+      done.target_met = std::abs(static_cast<double>(count) / wanted - 1) <= 0.1;
+    }
   }
   return result;
 }

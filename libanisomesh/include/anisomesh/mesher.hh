@@ -33,7 +33,8 @@ struct MeshOptions {
   double alignment_weight = 1;
   /// The vertices will be moved by fit_vertices(), which takes out much of what wider tolerances cost: edges
   /// follow the directions better and more polygons are quads with 1.5 times chain_tolerance, 2 times
-  /// cell_tolerance and 4 times alignment_weight. remesh() sets it where it fits
+  /// cell_tolerance and 4 times alignment_weight. The search for a count ends farther from it, as the balance
+  /// makes up for the rest. remesh() sets it where it fits
   bool for_fit = false;
   /// Features are followed this nearly, whatever epsilon is, fraction of the diagonal; >= 0.
   /// 0: what the feature stage has recorded, 4e-4 for features that were asked for and no bound for those
