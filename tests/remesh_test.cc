@@ -176,6 +176,7 @@ TEST_CASE("with the fit a number of vertices is met exactly, faces nearly", "[re
     options.fit.enabled = true;
     options.target_vertices = 0;
     options.target_faces = 500;
+    INFO("faces");
     CHECK(static_cast<double>(remesh(mesh, options).n_faces()) == Approx(500).epsilon(0.03));
     options.target_faces = 0;
     options.trace.density.epsilon_fraction = 0.002;

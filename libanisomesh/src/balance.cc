@@ -46,16 +46,30 @@ void exchange(PatchChanges& changes, const std::vector<PatchMove>& removals,
   }
 }
 
-/// How many vertices there are to be in the end.
-long wanted_vertices(const SurfaceRef& surface, const OpenMesh::PolyMesh& result,
-                     const BalanceOptions& options) {
-  if (options.target_vertices > 0) return static_cast<long>(options.target_vertices);
-  const auto& mesh = surface.connectivity();
-  const int of_search = has_property(mesh, property::target_vertices)
-                            ? mesh.property(require_property(mesh, property::target_vertices))
-                            : 0;
-  return of_search > 0 ? of_search : static_cast<long>(result.n_vertices());
-}
+/// How many there are to be in the end.
+struct Wanted {
+  size_t vertices = 0, faces = 0;  ///< the one or the other
+
+  Wanted(const SurfaceRef& surface, const OpenMesh::PolyMesh& result, const BalanceOptions& options) {
+    const auto& mesh = surface.connectivity();
+    const auto of_search = [&](const auto& declaration) {
+      return has_property(mesh, declaration)
+                 ? static_cast<size_t>(mesh.property(require_property(mesh, declaration)))
+                 : size_t{0};
+    };
+    vertices = options.target_vertices;
+    if (vertices == 0) vertices = of_search(property::target_vertices);
+    if (vertices == 0) faces = of_search(property::target_faces);
+    if (vertices + faces == 0) vertices = result.n_vertices();
+  }
+
+  /// Vertices that are too many: each stands for about as many faces as there are for one.
+  long surplus(const OpenMesh::PolyMesh& mesh) const {
+    const auto n = static_cast<double>(mesh.n_vertices()), f = static_cast<double>(mesh.n_faces());
+    if (faces > 0) return std::lround((f - static_cast<double>(faces)) * n / f);
+    return static_cast<long>(mesh.n_vertices()) - static_cast<long>(vertices);
+  }
+};
 
 }  // namespace
 
@@ -91,7 +105,7 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     for (const auto v : work.vertices()) work.set_point(v, state->points()[static_cast<size_t>(v.idx())]);
   };
   const size_t n_before = result.n_vertices();
-  const long wanted = wanted_vertices(surface, result, options);
+  const Wanted wanted(surface, result, options);
   const bool change = options.rounds > 0 && (options.max_degree == 3 || options.max_degree == 4);
   for (int round = 0; change && round < options.rounds; ++round) {
     report_progress(progress, round / (options.rounds + 1.0));
@@ -103,7 +117,7 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     const detail::PatchMoves moves(surface, input, *state, options);
     PatchMesh mesh(work);
     PatchChanges changes(mesh);
-    const long surplus = static_cast<long>(work.n_vertices()) - wanted;
+    const long surplus = wanted.surplus(work);
     const auto removals = moves.removals(mesh), additions = moves.additions(mesh, surplus < 0);
     const auto repartitions = moves.repartitions(mesh);
     exchange(changes, removals, additions, surplus, report);

@@ -184,7 +184,7 @@ void CanonicalCopy::copy_properties(TriConnectivity& from, TriConnectivity& to, 
   texture(OpenMesh::VPropHandleT<Vec2d>());
   copier.copy(p::umbilic_position, positions);
   copier.copy(p::chart_uv, on_edges_sides);
-  for (const auto& d : {p::follow, p::target_vertices}) copier.copy(d, on_mesh);
+  for (const auto& d : {p::follow, p::target_vertices, p::target_faces}) copier.copy(d, on_mesh);
   copier.copy(p::line_table, on_mesh);
   copy_points(p::line_faces, p::line_barycentrics);
   copy_points(p::isotropic_faces, p::isotropic_barycentrics);

@@ -28,6 +28,8 @@ constexpr double kForFit = 0.765, kFacesForFit = 0.84;
 /// Off by so much, the balance that follows a fit makes up for it: better by adding vertices, which go to
 /// where the error is largest, than by taking them out, which costs quads.
 constexpr double kEnoughBelow = 0.08, kEnoughAbove = 0.07;
+/// It makes quads of triangles too, until there are hardly more faces than this for each vertex.
+constexpr double kFacesLeft = 1.1;
 
 /// The number of crossings that the density asks for: one for each rectangle of the two spacings.
 class CrossingModel {
@@ -127,6 +129,12 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   if (wanted > 0 && !options.relax_passes) options.relax_passes = 0;
   if (wanted > 0 && polygons.cell_tolerance == 0) polygons.cell_tolerance = kCellTolerance;
   TraceAndMeshReport done;
+  const bool balanced = mesh.for_fit && (mesh.max_degree == 3 || mesh.max_degree == 4);
+  const auto count_of = [&](size_t vertices, size_t faces) {
+    if (target.target_faces == 0) return vertices;
+    const double left = kFacesLeft * static_cast<double>(vertices);
+    return balanced && mesh.max_degree == 4 ? std::min(faces, static_cast<size_t>(left)) : faces;
+  };
   // With `any` count, or only one that is near the target, worth being made sound.
   const auto run = [&](double from, double to, bool any) {
     const double span = to - from;
@@ -140,7 +148,7 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
           polygons.cell_tolerance;
     }
     const auto is_wanted = [&](size_t vertices, size_t faces) {
-      const double count = static_cast<double>(target.target_faces > 0 ? faces : vertices);
+      const double count = static_cast<double>(count_of(vertices, faces));
       return any || std::abs(count / wanted - 1) <= kWanted;
     };
     return detail::attempt_polygons(surface, polygons, is_wanted, &done.mesh,
@@ -160,7 +168,6 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   LineNetwork lines_of_best;
   bool is_last_best = false;
   detail::EpsilonSearch search;
-  const bool balanced = mesh.for_fit && (mesh.max_degree == 3 || mesh.max_degree == 4);
   if (balanced) search.enough_below = kEnoughBelow, search.enough_above = kEnoughAbove;
   // For as many crossings there are fewer polygons where tolerances are wider.
   const double share = !mesh.for_fit ? 1 : target.target_faces > 0 ? kFacesForFit : kForFit;
@@ -171,8 +178,7 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     ++made;
     auto attempt = run(1 - std::pow(0.6, made - 1), 1 - std::pow(0.6, made), any);
     last = std::move(attempt.mesh);
-    return detail::EpsilonSearch::Made{target.target_faces > 0 ? done.mesh.faces : done.mesh.vertices,
-                                       attempt.sound};
+    return detail::EpsilonSearch::Made{count_of(done.mesh.vertices, done.mesh.faces), attempt.sound};
   };
   search.keep = [&] {
     best = std::move(last);
@@ -191,9 +197,12 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     surface.connectivity().property(epsilon) = done.epsilon_fraction * surface.diagonal();
   }
   if (balanced && found.met) {  // what is farther off stays so: features, say, ask for as many
-    const double count = static_cast<double>(target.target_faces > 0 ? done.mesh.faces : done.mesh.vertices);
-    surface.connectivity().property(provide_property(surface.connectivity(), property::target_vertices)) =
-        static_cast<int>(std::lround(static_cast<double>(done.mesh.vertices) * wanted / count));
+    auto& connectivity = surface.connectivity();
+    const auto leave = [&](const auto& declaration, size_t count) {
+      connectivity.property(provide_property(connectivity, declaration)) = static_cast<int>(count);
+    };
+    leave(property::target_vertices, target.target_vertices);
+    leave(property::target_faces, target.target_faces);
   }
   return finish(std::move(best));
 }

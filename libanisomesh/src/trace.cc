@@ -98,7 +98,8 @@ TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& given, co
   mesh.property(provide_property(mesh, property::follow)) = static_cast<int>(options.follow);
   mesh.property(provide_property(mesh, property::epsilon)) = domain->epsilon();
   mesh.property(provide_property(mesh, property::cell_tolerance)) = cell_tolerance_by_epsilon;
-  mesh.property(provide_property(mesh, property::target_vertices)) = 0;
+  for (const auto& target : {property::target_vertices, property::target_faces})
+    mesh.property(provide_property(mesh, target)) = 0;
   write_lines(surface, network);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

@@ -13,7 +13,8 @@ namespace anisomesh {
 struct BalanceOptions {
   int rounds = 2;  ///< of moves, each after a few passes of the fit; 0: the fit alone; >= 0
   /// So many vertices in the end, as far as the moves can; 0: as many as the search for a count was to find,
-  /// where it left that to the balance (property target_vertices), else as many as there are
+  /// where it left that to the balance (properties target_vertices and target_faces), else as many as there
+  /// are
   size_t target_vertices = 0;
   /// What a triangle costs on top of its error, in mean errors of a polygon: more keeps more quads; >= 0
   double triangle_cost = 0.8;
@@ -38,8 +39,8 @@ struct BalanceReport {
 
 /// Changes the connectivity where that lowers the error of the fitted result: polygons are partitioned anew,
 /// vertices removed where they buy least and added where the error is largest.
-/// Reads: as fit_vertices(), target_vertices. Writes: `result`, all of it, with the properties that
-/// build_polygons() gives it. \pre as fit_vertices() \throw as fit_vertices()
+/// Reads: as fit_vertices(), target_vertices, target_faces. Writes: `result`, all of it, with the properties
+/// that build_polygons() gives it. \pre as fit_vertices() \throw as fit_vertices()
 BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& result,
                                const BalanceOptions& options = {}, const FitOptions& fit = {},
                                const Progress& progress = {});

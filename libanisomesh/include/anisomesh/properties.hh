@@ -95,9 +95,10 @@ inline constexpr OnMesh<double> epsilon{"anisomesh:epsilon", "trace_lines"};
 /// How near the cells between the lines are to lie, in epsilons; build_polygons() follows it unless told
 /// otherwise.
 inline constexpr OnMesh<double> cell_tolerance{"anisomesh:cell_tolerance", "trace_lines"};
-/// So many vertices balance_vertices() is to leave; 0: as many as there are. Above 0 where trace_and_mesh()
-/// was to find the lines for a number, and left what is lacking to the balance.
+/// So many vertices or faces balance_vertices() is to leave; both 0: as many vertices as there are. Above 0
+/// where trace_and_mesh() was to find the lines for a number, and left what is lacking to the balance.
 inline constexpr OnMesh<int> target_vertices{"anisomesh:target_vertices", "trace_lines"};
+inline constexpr OnMesh<int> target_faces{"anisomesh:target_faces", "trace_lines"};
 /// The directions that the lines follow: a Follow (lines.hh). Where it is missing, those of curvature.
 inline constexpr OnMesh<int> follow{"anisomesh:follow", "trace_lines"};
 /// Per line: kind (0 min, 1 max), closed (0, 1), reason of its two ends (LineEnd), index of its first point:

@@ -41,7 +41,7 @@ struct RemeshOptions : TargetOptions {
 /// One go at a target.
 struct Attempt {
   double epsilon_fraction = 0;
-  size_t count = 0;  ///< faces, or vertices where these are the target
+  size_t count = 0;  ///< faces, of which a balance to come is known to make fewer, or vertices
 };
 
 /// What the last three stages did.
@@ -71,8 +71,8 @@ struct RemeshReport : TraceAndMeshReport {
 /// Traces lines, places isotropic samples and builds polygons; where a target is given, with the epsilon that
 /// meets it: count is about proportional to 1/epsilon, and a few attempts find the rest.
 /// With MeshOptions::for_fit from 8 % below to 7 % above the target is near enough: balance_vertices() finds
-/// how many there are to be in property target_vertices. Reads: what trace_lines() reads. Writes: what
-/// trace_lines() and place_isotropic_samples() write. \throw as these and build_polygons()
+/// how many there are to be in properties target_vertices and target_faces. Reads: what trace_lines() reads.
+/// Writes: what trace_lines() and place_isotropic_samples() write. \throw as these and build_polygons()
 OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions& trace = {},
                                   const MeshOptions& mesh = {}, const TargetOptions& target = {},
                                   TraceAndMeshReport* report = nullptr, const Progress& progress = {});
