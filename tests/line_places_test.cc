@@ -69,6 +69,10 @@ TEST_CASE("of a straight line's many steps through one triangle a fourth is draw
   CHECK((straight.kept.back() - straight.points.back()).norm() < 1e-12);
 }
 
+TEST_CASE("of very many steps through one triangle some twenty are drawn", "[line_places]") {
+  CHECK(drawn([](double t) { return Vec3d(0.3 + 0.6 * t, 0.1, 0); }, 400).kept.size() == 21);
+}
+
 TEST_CASE("what is left out of a line is on what is drawn, and a line that turns is drawn whole",
           "[line_places]") {
   const auto arc = [](double turn) {

@@ -159,6 +159,48 @@ TEST_CASE("on a torus the rings around it keep the spacing of equation 6", "[sur
   }
 }
 
+TEST_CASE("around a limb thinner than its lines are apart a line goes once and is closed",
+          "[surface-domain]") {
+  OpenMesh::TriMesh tube;  // of radius 1, slightly oval, so that its rings have a curvature of their own
+  const int around = 48, along = 60;
+  const double height = 120;
+  for (int j = 0; j <= along; ++j)
+    for (int i = 0; i < around; ++i) {
+      const double angle = 2 * pi * (i + 0.5 * (j % 2)) / around;
+      tube.add_vertex({std::cos(angle), 0.9 * std::sin(angle), height * j / along});
+    }
+  const auto at = [&](int i, int j) { return OpenMesh::VertexHandle(j * around + i % around); };
+  for (int j = 0; j < along; ++j)
+    for (int i = 0; i < around; ++i)
+      if (j % 2) {
+        tube.add_face(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+        tube.add_face(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+      } else {
+        tube.add_face(at(i, j), at(i + 1, j), at(i, j + 1));
+        tube.add_face(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+      }
+  prepare(tube);
+  trace_lines(tube, with_epsilon(0.0003));
+  size_t rings = 0;
+  double nearest = height;
+  std::vector<double> heights;
+  for (const Line& line : read_lines(tube).lines) {
+    if (line.kind != LineKind::max) continue;
+    const auto points = positions(tube, line);
+    double length = (points.back() - points.front()).norm();
+    for (size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+    if (points.front()[2] < 0.1 * height || points.front()[2] > 0.9 * height) continue;
+    ++rings;
+    CHECK(line.closed);
+    CHECK(length == Approx(5.97).epsilon(0.02));  // of the ellipse; two windings and more before
+    heights.push_back(points.front()[2]);
+  }
+  CHECK(rings >= 4);
+  std::sort(heights.begin(), heights.end());
+  for (size_t i = 1; i < heights.size(); ++i) nearest = std::min(nearest, heights[i] - heights[i - 1]);
+  CHECK(1.6 * nearest > 5.97);  // or they would have seen themselves
+}
+
 TEST_CASE("two sheets near each other in space do not see each other", "[surface-domain]") {
   const auto lines_of = [](bool both) {
     auto mesh = empty_mesh();

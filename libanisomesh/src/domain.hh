@@ -75,6 +75,8 @@ class Domain {
  public:
   virtual ~Domain() = default;
 
+  /// In space; in the plane where the domain is that of a parameterization.
+  virtual Vec3d place(const SurfacePoint& at) const = 0;
   /// Curvature tensor in the local frame, (uu, uv, vv), 1/length.
   virtual Vec3d tensor(const SurfacePoint& at) const = 0;
   /// The tensor at the end of a vector, carried back to the frame of its start.

@@ -9,8 +9,20 @@ namespace {
 
 constexpr double straight = 0.02;  // off the chord, of the shortest step along it
 constexpr size_t longest = 4;      // steps that one takes the place of: cells want nodes along a line, too
+constexpr size_t enough = 20;      // nodes of a line in one triangle, however many its steps are
 
 bool is_inside(const Place& place) { return place.vertex < 0 && !place.on_edge(); }
+
+/// How many steps may become one, of those that a line makes in each triangle.
+std::vector<size_t> longest_steps(const std::vector<Place>& places) {
+  std::vector<size_t> result(places.size(), longest);
+  for (size_t begin = 0, end = 0; begin < places.size(); begin = end) {
+    while (end < places.size() && places[end].face == places[begin].face) ++end;
+    std::fill(result.begin() + static_cast<std::ptrdiff_t>(begin),
+              result.begin() + static_cast<std::ptrdiff_t>(end), std::max(longest, (end - begin) / enough));
+  }
+  return result;
+}
 
 /// Whether the points between two of them are on the segment that joins the two.
 bool is_straight(const std::vector<Vec3d>& points, size_t begin, size_t end) {
@@ -37,11 +49,12 @@ std::vector<Place> places_of(const SurfaceArrays& mesh, const SurfaceRef& surfac
     all.push_back(place_of(mesh, point));
     points.push_back(position(surface, point));
   }
+  const std::vector<size_t> longest_at = longest_steps(all);
   for (size_t i = 0; i < all.size();) {
     kept.push_back(all[i]);
     size_t next = i + 1;
-    while (is_inside(all[i]) && next + 1 < all.size() && next - i < longest && is_inside(all[next + 1]) &&
-           all[next + 1].face == all[i].face && is_straight(points, i, next + 1))
+    while (is_inside(all[i]) && next + 1 < all.size() && next - i < longest_at[i] &&
+           is_inside(all[next + 1]) && all[next + 1].face == all[i].face && is_straight(points, i, next + 1))
       left_out.push_back(all[next++].face);
     i = next;
   }

@@ -18,8 +18,12 @@ constexpr double kParallel = 0.94;      // cosine: a fence this parallel counts 
 constexpr double kParallelFence = 0.45;  // spacings
 constexpr double kSpeck = 0.02;          // spacings
 constexpr size_t kStepLimit = 50000;
-constexpr double kSeesFence = 2.5;  // spacings
-constexpr double kPullBack = 1e-3;  // of the last segment: what is entered keeps off the fence it ends at
+constexpr double kMostBetween = 48;     // points between two crossings, where the field is straight
+constexpr double kComesAround = 0.1;    // spacings beside its start at which a line is closed
+constexpr double kHardlyTurned = M_PI;  // within the surface: what turns more is a small circle
+constexpr double kSameWay = 0.8;        // cosine
+constexpr double kSeesFence = 2.5;      // spacings
+constexpr double kPullBack = 1e-3;      // of the last segment: what is entered keeps off the fence it ends at
 
 LineKind other(LineKind kind) { return kind == LineKind::min ? LineKind::max : LineKind::min; }
 
@@ -47,7 +51,7 @@ double LineTracer::longest_step(const TracePoint& from) const {
   const double turning = domain_.turning_length(from.point);
   // A few points between two crossings; and near an umbilic, where the deviator is small for its gradient,
   // steps that the field's turning allows.
-  const double bound = std::min(across / 3.2, 1.5 * own);
+  const double bound = std::min(across / 3.2, std::max(1.5 * own, across / kMostBetween));
   return std::max(std::min(bound, 0.5 * turning), bound / 16);
 }
 
@@ -104,6 +108,29 @@ bool LineTracer::ends_here(Half& half, const TracePoint& head, int id, int umbil
   return true;
 }
 
+// Around a thin limb a line is back before it has gone the length in which it cannot run into itself: it
+// would wind itself several times, on or close to itself.
+bool LineTracer::comes_around(Half& half, const TracePoint& head) const {
+  if (half.points.size() < 4 || std::abs(head.arc) > kOwnPart + options_.stop_fraction) return false;
+  const auto place = [&](const TracePoint& p) { return domain_.place(p.point); };
+  const Vec3d start = place(half.points[0]), leaves = place(half.points[1]) - start;
+  const Vec3d last = place(half.points.back()) - start, now = place(head) - start;
+  const double before = last | leaves, after = now | leaves;
+  if (!(before < 0 && after >= 0) ||
+      !(((now - last) | leaves) > kSameWay * (now - last).norm() * leaves.norm()))
+    return false;
+  const double aside = (last - before / (after - before) * (now - last)).norm();
+  const double spacing = domain_.spacing(kind_, head.point);
+  if (aside >= options_.stop_fraction * spacing) return false;
+  half.reason = LineEnd::too_close;
+  if (aside >= kComesAround * spacing || half.sign < 0) return true;
+  half.reason = LineEnd::loop;
+  while (half.points.size() > 4 && half.points.size() > half.entered &&
+         (place(half.points.back()) - start).norm() < 3 * aside)
+    half.points.pop_back();  // no kink where it closes
+  return true;
+}
+
 void LineTracer::enter_lagging(Half& half, int id, bool all) {
   const TracePoint& head = half.points.back();
   size_t last = half.entered;
@@ -154,6 +181,8 @@ void LineTracer::run(Half& half, int id, int umbilic, double crossings_of_other_
       return;
     }
     if (hits_umbilic(half, head, umbilic) || ends_here(half, head, id, umbilic)) return;
+    const bool may_be_ring = umbilic < 0 && !half.from_fence && std::abs(turned) < kHardlyTurned;
+    if (may_be_ring && comes_around(half, head)) return;
     half.points.push_back(head);
 
     // Small circles, tighter than the lines are apart, close before they are seen to.

@@ -61,6 +61,7 @@ class LineTracer {
   Step step(const TracePoint& from, double wanted) const;
   double longest_step(const TracePoint& from) const;
   bool ends_here(Half& half, const TracePoint& head, int id, int umbilic);
+  bool comes_around(Half& half, const TracePoint& head) const;
   bool hits_umbilic(Half& half, const TracePoint& head, int umbilic);
   void enter_lagging(Half& half, int id, bool all);
   TracePoint after_straight_step(const TracePoint& start, double spacings, bool& blocked) const;

@@ -26,6 +26,10 @@ class PlaneDomain final : public FaceDomain {
   PlaneDomain(const SurfaceRef& surface, const PlaneInput& input, const DensityOptions& density,
               Follow follow = Follow::curvature);
 
+  Vec3d place(const SurfacePoint& at) const override {
+    const Vec2d uv = plane_position(at);
+    return {uv[0], uv[1], 0};
+  }
   Vec3d tensor(const SurfacePoint& at) const override;
   Vec3d tensor_ahead(const SurfacePoint& from, const Vec2d& vector) const override;
   Reach walk(const SurfacePoint& from, const Vec2d& vector) const override;

@@ -35,6 +35,7 @@ class SurfaceDomain final : public FaceDomain {
   SurfaceDomain(const SurfaceRef& surface, SurfaceInput input, const DensityOptions& density,
                 Follow follow = Follow::curvature);
 
+  Vec3d place(const SurfacePoint& at) const override { return position(surface_, at); }
   Vec3d tensor(const SurfacePoint& at) const override;
   Vec3d tensor_ahead(const SurfacePoint& from, const Vec2d& vector) const override;
   Reach walk(const SurfacePoint& from, const Vec2d& vector) const override;
