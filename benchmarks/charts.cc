@@ -1,18 +1,25 @@
 // Charts against the surface: the same meshes remeshed in both domains, and what can be seen of the seams.
 //
-//   ANISOMESH_DATA=FOLDER charts [--target FACES] [--feature-angle DEGREES] [--seams] [NAME...]
+//   ANISOMESH_DATA=FOLDER charts [--target FACES] [--feature-angle DEGREES] [--no-fit] [--seams [--repeats
+//   N]]
+//          [NAME...]
 //
-// Without --seams a markdown table with a row for each mesh and domain; memory is the peak of a process that
-// does this run alone. With --seams a table of the results inside a band of two edges along the seams and
-// elsewhere: quads, alignment and error (root of the mean squared face_error, % of the diagonal). Since seams
-// keep to creases the surface is another there; the same band of the result that was made on the surface,
-// where seams never were, says how much of the difference that is.
+// Without --seams a markdown table with a row for each mesh and domain, then the geometric means of charts
+// over surface; memory and processor time are those of a process that does this run alone, and "broken"
+// counts what is folded, concave, degenerate, non-manifold or a T-junction, and 1 for another topology. With
+// --seams a table of the results inside a band of two edges along the seams and elsewhere: quads, alignment
+// and error (root of the mean squared face_error, % of the diagonal). Since seams keep to creases the surface
+// is another there; the same band of the result that was made on the surface, where seams never were, says
+// how much of the difference that is. Figures are means over the result for the target and N - 1 more, for
+// epsilons up to some percent smaller and larger, since those of one result go up and down by as much.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -27,9 +34,9 @@ using namespace anisomesh;
 namespace {
 
 struct Settings {
-  size_t target = 4000;
+  size_t target = 4000, repeats = 1;
   FeatureOptions features;
-  bool seams = false;
+  bool seams = false, unfitted = false;
 };
 
 const std::vector<std::string>& ten_meshes() {
@@ -39,14 +46,28 @@ const std::vector<std::string>& ten_meshes() {
   return names;
 }
 
-// Geometric means of what is inside over what is elsewhere.
-struct Ratios {
-  double quads = 0, alignment = 0, error = 0;  // sums of logarithms
-  int count = 0;
-  void print(const char* domain) const {
-    std::printf("%s: inside over elsewhere, geometric means of %d: quads %.3f, alignment %.3f, error %.3f\n",
-                domain, count, std::exp(quads / count), std::exp(alignment / count), std::exp(error / count));
+// Logarithms of ratios; printed as their geometric mean, with the standard error where there are several.
+class Ratios {
+ public:
+  void add(double a, double b) {
+    if (a > 0 && b > 0) logs_.push_back(std::log(a / b));
   }
+  size_t count() const { return logs_.size(); }
+  double mean_log() const {
+    return std::accumulate(logs_.begin(), logs_.end(), 0.0) /
+           static_cast<double>(std::max<size_t>(1, count()));
+  }
+  double mean() const { return std::exp(mean_log()); }
+  std::string text() const {
+    if (count() < 2) return bench::format("%.3f", mean());
+    double sum = 0;
+    for (const double l : logs_) sum += (l - mean_log()) * (l - mean_log());
+    const double n = static_cast<double>(count());
+    return bench::format("%.3f", mean()) + bench::format(" +- %.3f", mean() * std::sqrt(sum / (n - 1) / n));
+  }
+
+ private:
+  std::vector<double> logs_;
 };
 
 struct Figures {
@@ -120,72 +141,206 @@ std::vector<Vec3d> seam_points(OpenMesh::TriMesh& mesh) {
   return points;
 }
 
-OpenMesh::PolyMesh remeshed(OpenMesh::TriMesh& mesh, Domain domain, const Settings& settings,
-                            RemeshReport& report) {
+RemeshOptions options_for(const OpenMesh::TriMesh& mesh, Domain domain, const Settings& settings) {
   RemeshOptions options;
-  options.fit.enabled = false;
+  options.fit.enabled = !settings.unfitted;
   options.domain = domain;
   options.features = settings.features;
   options.target_faces = std::min(settings.target, mesh.n_faces() / 2);
-  return remesh(mesh, options, &report);
+  return options;
 }
 
-void compare_domains(const std::string& name, const std::string& path, const Settings& settings) {
-  for (const Domain domain : {Domain::charts, Domain::surface}) {
-    std::fflush(stdout);
-    const pid_t child = fork();
-    if (child == 0) {
-      int code = 0;
-      try {
-        auto mesh = read_surface(path);
-        RemeshReport report;
-        auto result = remeshed(mesh, domain, settings, report);
-        rusage usage{};
-        getrusage(RUSAGE_SELF, &usage);
-        const auto c = bench::Ruler(mesh)(result);
-        const bool charts = domain == Domain::charts;
-        std::printf("| %s | %s | %s | %zu + %zu | %zu | %zu | %.1f | %.4f | %.3f | %.2f | %.2f | %ld |\n",
-                    name.c_str(), charts ? "charts" : "surface",
-                    charts ? std::to_string(report.domain.charts.charts).c_str() : "", report.umbilics.wedges,
-                    report.umbilics.trisectors, c.vertices, c.faces, 100 * c.quad_fraction,
-                    100 * c.two_sided.rms, 100 * c.two_sided.hausdorff, c.mean_alignment_degrees,
-                    report.seconds, usage.ru_maxrss / 1024);
-      } catch (const std::exception& e) {
-        std::printf("| %s | refused: %s |\n", name.c_str(), e.what());
-        code = 1;
-      }
-      std::fflush(stdout);
-      _exit(code);
-    }
-    waitpid(child, nullptr, 0);
-  }
+// What a run tells the process that started it.
+struct Run {
+  char done = 0;
+  double error = 0, hausdorff = 0, quads = 0, alignment = 0, vertices = 0, wall = 0, processor = 0,
+         memory = 0;
+};
+
+double seconds(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
 
-void compare_bands(const std::string& name, const std::string& path, const Settings& settings,
-                   Ratios ratios[2]) {
+size_t broken(const Comparison& c) {
+  return c.folded_faces + c.concave_faces + c.degenerate_faces + c.non_manifold_edges +
+         c.non_manifold_vertices + c.t_junctions + (c.same_topology ? 0 : 1);
+}
+
+Run run_in(Domain domain, const std::string& name, const std::string& path, const Settings& settings) {
   auto mesh = read_surface(path);
-  bench::Ruler ruler(mesh);
-  std::vector<Vec3d> seams;
-  for (const Domain domain : {Domain::charts, Domain::surface}) {
+  RemeshReport report;
+  auto result = remesh(mesh, options_for(mesh, domain, settings), &report);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto c = bench::Ruler(mesh)(result);
+  const bool charts = domain == Domain::charts;
+  const Run run{1,
+                c.two_sided.rms,
+                c.two_sided.hausdorff,
+                c.quad_fraction,
+                c.mean_alignment_degrees,
+                static_cast<double>(c.vertices),
+                report.seconds,
+                seconds(usage.ru_utime) + seconds(usage.ru_stime),
+                static_cast<double>(usage.ru_maxrss) / 1024};
+  std::printf(
+      "| %s | %s | %s | %zu + %zu | %zu | %zu%s | %zu | %.1f | %.4f | %.3f | %.2f | %.2f | %.2f | %.0f |\n",
+      name.c_str(), charts ? "charts" : "surface",
+      charts ? std::to_string(report.domain.charts.charts).c_str() : "", report.umbilics.wedges,
+      report.umbilics.trisectors, c.vertices, c.faces, report.target_met ? "" : " (missed)", broken(c),
+      100 * c.quad_fraction, 100 * c.two_sided.rms, 100 * c.two_sided.hausdorff, c.mean_alignment_degrees,
+      run.wall, run.processor, run.memory);
+  return run;
+}
+
+Run run_apart(Domain domain, const std::string& name, const std::string& path, const Settings& settings) {
+  std::fflush(stdout);
+  int ends[2];
+  if (pipe(ends) != 0) return {};
+  const pid_t child = fork();
+  if (child == 0) {
+    Run run;
+    try {
+      run = run_in(domain, name, path, settings);
+    } catch (const std::exception& e) {
+      std::printf("| %s | refused: %s |\n", name.c_str(), e.what());
+    }
+    std::fflush(stdout);
+    const bool sent = write(ends[1], &run, sizeof run) == static_cast<ssize_t>(sizeof run);
+    _exit(run.done && sent ? 0 : 1);
+  }
+  close(ends[1]);
+  Run run;
+  if (read(ends[0], &run, sizeof run) != static_cast<ssize_t>(sizeof run)) run = {};
+  close(ends[0]);
+  waitpid(child, nullptr, 0);
+  return run;
+}
+
+// Charts over surface, and how often charts have the smaller error and the more quads.
+struct Tally {
+  Ratios error, hausdorff, alignment, wall, processor, memory;
+  double quads = 0;  // sum of differences, points
+  int smaller_error = 0, more_quads = 0, better_aligned = 0;
+
+  void add(const Run& charts, const Run& surface) {
+    if (!charts.done || !surface.done) return;
+    const double c = charts.error * charts.vertices, s = surface.error * surface.vertices;
+    error.add(c, s);
+    hausdorff.add(charts.hausdorff, surface.hausdorff);
+    alignment.add(charts.alignment, surface.alignment);
+    wall.add(charts.wall, surface.wall);
+    processor.add(charts.processor, surface.processor);
+    memory.add(charts.memory, surface.memory);
+    quads += 100 * (charts.quads - surface.quads);
+    smaller_error += c < s;
+    more_quads += charts.quads > surface.quads;
+    better_aligned += charts.alignment < surface.alignment;
+  }
+  void print() const {
+    std::printf(
+        "\nCharts over surface, geometric means of %zu with their standard errors: error times vertices %s, "
+        "Hausdorff %s, alignment %s, seconds %s, processor %s, memory %s; quads %+.1f points. Charts have "
+        "the "
+        "smaller error on %d, more quads on %d, the better alignment on %d.\n",
+        error.count(), error.text().c_str(), hausdorff.text().c_str(), alignment.text().c_str(),
+        wall.text().c_str(), processor.text().c_str(), memory.text().c_str(),
+        quads / static_cast<double>(error.count()), smaller_error, more_quads, better_aligned);
+  }
+};
+
+void compare_domains(const std::string& name, const std::string& path, const Settings& settings,
+                     Tally& tally) {
+  const Run charts = run_apart(Domain::charts, name, path, settings);
+  tally.add(charts, run_apart(Domain::surface, name, path, settings));
+}
+
+// Sums over the results of one mesh and domain: what is inside the band, and what is elsewhere.
+struct Sides {
+  Figures in, out;
+};
+
+Figures mean(const std::vector<Sides>& all, Figures Sides::*side) {
+  Figures sum;
+  for (const Sides& one : all) {
+    const Figures& f = one.*side;
+    sum.faces += f.faces;
+    sum.quads += f.quads;
+    sum.alignment += f.alignment;
+    sum.error += f.error * f.error;
+  }
+  const double n = static_cast<double>(all.size());
+  return {sum.faces / all.size(), sum.quads / n, sum.alignment / n, std::sqrt(sum.error / n)};
+}
+
+// The result for the target, and some for epsilons a little smaller and larger, one after the other.
+std::vector<Sides> sides_of(OpenMesh::TriMesh& mesh, Domain domain, const Settings& settings,
+                            bench::Ruler& ruler, std::vector<Vec3d>& seams) {
+  RemeshOptions options = options_for(mesh, domain, settings);
+  std::vector<Sides> sides;
+  double epsilon = 0;
+  for (size_t k = 0; k < settings.repeats; ++k) {
     RemeshReport report;
-    auto result = remeshed(mesh, domain, settings, report);
-    if (domain == Domain::charts) seams = seam_points(mesh);
+    auto result = remesh(mesh, options, &report);
+    if (domain == Domain::charts && k == 0) seams = seam_points(mesh);
+    if (seams.empty()) return {};
     ruler(result);
     const auto inside = band(seams, result);
     std::vector<char> outside;
     for (const char in : inside) outside.push_back(in ? 0 : 1);
-    const auto in = figures(ruler.reference, result, inside), out = figures(ruler.reference, result, outside);
-    Ratios& sums = ratios[domain == Domain::charts ? 0 : 1];
-    sums.quads += std::log(in.quads / out.quads);
-    sums.alignment += std::log(in.alignment / out.alignment);
-    sums.error += std::log(in.error / out.error);
-    ++sums.count;
+    sides.push_back({figures(ruler.reference, result, inside), figures(ruler.reference, result, outside)});
+    if (k == 0) epsilon = report.epsilon_fraction;
+    options.target_faces = 0;  // the options that a target sets
+    options.trace.seed_fraction = 0.8;
+    options.mesh.cell_tolerance = 4;
+    const double step = 1 + 0.02 * static_cast<double>(k / 2 + 1);
+    options.trace.density.epsilon_fraction = epsilon * std::pow(step, k % 2 == 0 ? 1 : -1);
+  }
+  return sides;
+}
+
+// Of all meshes: [0] in charts, [1] on the surface, [2] the one over the other.
+struct BandRatios {
+  Ratios quads[3], alignment[3], error[3];
+
+  void print() const {
+    const char* names[3] = {"charts", "surface", "charts over surface"};
+    std::printf(
+        "\nInside over elsewhere, geometric means of %zu with their standard errors:\n\n"
+        "| domain | quads | alignment | error |\n|---|---|---|---|\n",
+        quads[0].count());
+    for (int k = 0; k < 3; ++k)
+      std::printf("| %s | %s | %s | %s |\n", names[k], quads[k].text().c_str(), alignment[k].text().c_str(),
+                  error[k].text().c_str());
+  }
+};
+
+void compare_bands(const std::string& name, const std::string& path, const Settings& settings,
+                   BandRatios& ratios) {
+  auto mesh = read_surface(path);
+  bench::Ruler ruler(mesh);
+  std::vector<Vec3d> seams;
+  Figures in[2], out[2];
+  for (const int k : {0, 1}) {
+    const auto sides = sides_of(mesh, k == 0 ? Domain::charts : Domain::surface, settings, ruler, seams);
+    if (sides.empty()) {
+      std::printf("| %s | no seams but features |\n", name.c_str());
+      return;
+    }
+    in[k] = mean(sides, &Sides::in), out[k] = mean(sides, &Sides::out);
+    ratios.quads[k].add(in[k].quads, out[k].quads);
+    ratios.alignment[k].add(in[k].alignment, out[k].alignment);
+    ratios.error[k].add(in[k].error, out[k].error);
     std::printf("| %s | %s | %zu | %zu | %.1f | %.1f | %.3f | %.2f | %.2f | %.3f | %.4f | %.4f | %.3f |\n",
-                name.c_str(), domain == Domain::charts ? "charts" : "surface", in.faces, out.faces,
-                100 * in.quads, 100 * out.quads, in.quads / out.quads, in.alignment, out.alignment,
-                in.alignment / out.alignment, 100 * in.error, 100 * out.error, in.error / out.error);
+                name.c_str(), k == 0 ? "charts" : "surface", in[k].faces, out[k].faces, 100 * in[k].quads,
+                100 * out[k].quads, in[k].quads / out[k].quads, in[k].alignment, out[k].alignment,
+                in[k].alignment / out[k].alignment, 100 * in[k].error, 100 * out[k].error,
+                in[k].error / out[k].error);
     std::fflush(stdout);
   }
+  ratios.quads[2].add(in[0].quads * out[1].quads, out[0].quads * in[1].quads);
+  ratios.alignment[2].add(in[0].alignment * out[1].alignment, out[0].alignment * in[1].alignment);
+  ratios.error[2].add(in[0].error * out[1].error, out[0].error * in[1].error);
 }
 
 }  // namespace
@@ -196,6 +351,8 @@ int main(int argc, char** argv) {
   arguments.number("--target", settings.target);
   arguments.features("--feature-angle", settings.features);
   arguments.flag("--seams", settings.seams);
+  arguments.number("--repeats", settings.repeats);
+  arguments.flag("--no-fit", settings.unfitted);
   auto names = arguments.read(argc, argv);
   if (names.empty()) names = ten_meshes();
   if (settings.seams)
@@ -205,11 +362,12 @@ int main(int argc, char** argv) {
         "out | ratio |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   else
     std::printf(
-        "| mesh | domain | charts | wedges + trisectors | vertices | faces | quads %% | RMS %% | Hausdorff "
-        "%% | "
-        "alignment | seconds | memory MiB |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+        "| mesh | domain | charts | wedges + trisectors | vertices | faces | broken | quads %% | RMS %% | "
+        "Hausdorff %% | alignment | seconds | processor | memory MiB "
+        "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   bool found = false;
-  Ratios ratios[2];
+  BandRatios ratios;
+  Tally tally;
   for (const std::string& name : names) {
     const auto path = demo_mesh(name);
     if (!path) continue;
@@ -218,15 +376,12 @@ int main(int argc, char** argv) {
       if (settings.seams)
         compare_bands(name, *path, settings, ratios);
       else
-        compare_domains(name, *path, settings);
+        compare_domains(name, *path, settings, tally);
     } catch (const std::exception& e) {
       std::printf("| %s | refused: %s |\n", name.c_str(), e.what());
     }
   }
-  if (settings.seams && found) {
-    std::printf("\n");
-    ratios[0].print("charts");
-    ratios[1].print("surface");
-  }
+  if (ratios.quads[2].count() > 0) ratios.print();
+  if (tally.error.count() > 0) tally.print();
   return found ? 0 : 77;
 }
