@@ -14,17 +14,19 @@ int main(int argc, char* argv[]) {
                         "umbilics.");
   std::string input, output;
   anisomesh::Domain domain = anisomesh::Domain::automatic;
+  anisomesh::ChartOptions charts;
   anisomesh::SmoothingOptions smoothing;
   command.input(input, "input", "What anisomesh-estimate wrote, .om");
   command.output(output, "Where to write the surface; only .om keeps what was found");
-  apps::add_domain_option(command, domain);
+  apps::add_domain_options(command, domain, charts);
   apps::add_smoothing_options(command, smoothing);
 
   return command.run(argc, argv, [&] {
+    charts.validate();
     smoothing.validate();
     auto mesh = apps::read_surface(command, input);
     const anisomesh::SurfaceRef surface = mesh;
-    const auto chosen = anisomesh::choose_domain(surface, domain, command.progress("flattening"));
+    const auto chosen = anisomesh::choose_domain(surface, domain, charts, command.progress("flattening"));
     const auto smooth = anisomesh::smooth_tensors(surface, smoothing, command.progress("smoothing"));
     const auto umbilics = anisomesh::find_umbilics(surface);
     command.stop_if_cancelled();

@@ -78,7 +78,7 @@ int main(int argc, char* argv[]) {
   apps::add_fill_option(command, fill);
   apps::add_feature_options(command, features);
   apps::add_curvature_options(command, options.curvature);
-  apps::add_domain_option(command, options.domain);
+  apps::add_domain_options(command, options.domain, options.charts);
   apps::add_smoothing_options(command, options.smoothing);
   apps::add_mesh_options(command, options.mesh);
   apps::add_fit_options(command, options.fit, options.balance);

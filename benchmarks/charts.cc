@@ -6,7 +6,8 @@
 //
 // Without --seams a markdown table with a row for each mesh and domain, then the geometric means of charts
 // over surface; memory and processor time are those of a process that does this run alone, and "broken"
-// counts what is folded, concave, degenerate, non-manifold or a T-junction, and 1 for another topology. With
+// counts what is folded, concave, degenerate, non-manifold or a T-junction where the input has none of the
+// kind, and 1 for another topology. With
 // --seams a table of the results inside a band of two edges along the seams and elsewhere: quads, alignment
 // and error (root of the mean squared face_error, % of the diagonal). Since seams keep to creases the surface
 // is another there; the same band of the result that was made on the surface, where seams never were, says
@@ -21,6 +22,7 @@
 #include <exception>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "anisomesh/charts.hh"
@@ -161,9 +163,18 @@ double seconds(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
 
-size_t broken(const Comparison& c) {
-  return c.folded_faces + c.concave_faces + c.degenerate_faces + c.non_manifold_edges +
-         c.non_manifold_vertices + c.t_junctions + (c.same_topology ? 0 : 1);
+// What is wrong with a result and not with its input.
+size_t broken(const Comparison& c, const Comparison& input) {
+  const std::pair<size_t, size_t> kinds[] = {
+      {c.folded_faces, input.folded_faces},
+      {c.concave_faces, input.concave_faces},
+      {c.degenerate_faces, input.degenerate_faces},
+      {c.non_manifold_edges, input.non_manifold_edges},
+      {c.non_manifold_vertices, input.non_manifold_vertices},
+      {c.t_junctions, input.t_junctions + input.non_manifold_vertices}};
+  size_t sum = c.same_topology ? 0 : 1;
+  for (const auto& [found, given] : kinds) sum += given > 0 ? 0 : found;
+  return sum;
 }
 
 Run run_in(Domain domain, const std::string& name, const std::string& path, const Settings& settings) {
@@ -172,7 +183,11 @@ Run run_in(Domain domain, const std::string& name, const std::string& path, cons
   auto result = remesh(mesh, options_for(mesh, domain, settings), &report);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const auto c = bench::Ruler(mesh)(result);
+  bench::Ruler ruler(mesh);
+  const auto c = ruler(result);
+  OpenMesh::PolyMesh same;
+  same.assign(ruler.reference, true);
+  const auto input = ruler(same);
   const bool charts = domain == Domain::charts;
   const Run run{1,
                 c.two_sided.rms,
@@ -187,7 +202,7 @@ Run run_in(Domain domain, const std::string& name, const std::string& path, cons
       "| %s | %s | %s | %zu + %zu | %zu | %zu%s | %zu | %.1f | %.4f | %.3f | %.2f | %.2f | %.2f | %.0f |\n",
       name.c_str(), charts ? "charts" : "surface",
       charts ? std::to_string(report.domain.charts.charts).c_str() : "", report.umbilics.wedges,
-      report.umbilics.trisectors, c.vertices, c.faces, report.target_met ? "" : " (missed)", broken(c),
+      report.umbilics.trisectors, c.vertices, c.faces, report.target_met ? "" : " (missed)", broken(c, input),
       100 * c.quad_fraction, 100 * c.two_sided.rms, 100 * c.two_sided.hausdorff, c.mean_alignment_degrees,
       run.wall, run.processor, run.memory);
   return run;

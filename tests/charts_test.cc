@@ -191,6 +191,37 @@ TEST_CASE("charts that are there can be kept, and scale with the surface", "[cha
   CHECK_THROWS_AS(cut_into_charts(none, wrong), InvalidOption);
 }
 
+TEST_CASE("remesh works in charts that a user brings", "[charts]") {
+  auto mesh = make_shape("ellipsoid", {2500, true});
+  auto& connectivity = SurfaceRef(mesh).connectivity();
+  // Three slices of no shape's choosing.
+  const auto slice = [&mesh](OpenMesh::FaceHandle f) {
+    const double z = mesh.calc_face_centroid(f)[2] / SurfaceRef(mesh).diagonal();
+    return z < -0.05 ? 0 : z < 0.1 ? 1 : 2;
+  };
+  const auto number = provide_property(connectivity, property::chart);
+  for (const auto f : mesh.faces()) mesh.property(number, f) = slice(f);
+  RemeshOptions options;
+  options.domain = anisomesh::Domain::charts;
+  options.charts.keep_charts = true;
+  options.target_faces = 500;
+  RemeshReport report;
+  auto result = remesh(mesh, options, &report);
+  CHECK(report.domain.charts.charts >= 3);
+  check_sound(compare(mesh, result));
+  std::vector<std::set<int>> slices(report.domain.charts.charts);
+  for (const auto f : mesh.faces()) slices.at(static_cast<size_t>(mesh.property(number, f))).insert(slice(f));
+  for (const auto& of_chart : slices) CHECK(of_chart.size() == 1);
+  // without, seams lie elsewhere
+  options.charts.keep_charts = false;
+  remesh(mesh, options, &report);
+  slices.assign(report.domain.charts.charts, {});
+  for (const auto f : mesh.faces()) slices.at(static_cast<size_t>(mesh.property(number, f))).insert(slice(f));
+  CHECK(std::any_of(slices.begin(), slices.end(), [](const auto& s) { return s.size() > 1; }));
+  options.charts.max_area_stretch = 1;
+  CHECK_THROWS_AS(remesh(mesh, options), InvalidOption);
+}
+
 TEST_CASE("a smaller bound gives more charts", "[charts]") {
   auto mesh = make_shape("ellipsoid", {3000, true});
   ChartOptions options;

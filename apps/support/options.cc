@@ -84,13 +84,31 @@ void add_curvature_options(Command& command, CurvatureOptions& options) {
       ->group("Curvature");
 }
 
-void add_domain_option(Command& command, Domain& domain) {
-  add_choice<Domain>(command.arguments(), "--domain", domain,
-                     {{"auto", Domain::automatic},
-                      {"plane", Domain::plane},
-                      {"charts", Domain::charts},
-                      {"surface", Domain::surface}},
-                     "Where lines are traced; auto takes the plane for a disc that flattens well", "Domain");
+void add_domain_options(Command& command, Domain& domain, ChartOptions& charts) {
+  CLI::App& app = command.arguments();
+  add_choice<Domain>(
+      app, "--domain", domain,
+      {{"auto", Domain::automatic},
+       {"plane", Domain::plane},
+       {"charts", Domain::charts},
+       {"surface", Domain::surface}},
+      "Where lines are traced; auto takes the plane for a disc that flattens well, else the surface",
+      "Domain");
+  app.add_flag("--keep-charts", charts.keep_charts,
+               "With charts: start from those that the .om input brings along, and cut only what does not "
+               "flatten")
+      ->group("Domain");
+  app.add_option(
+         "--max-area-stretch", charts.max_area_stretch,
+         "With charts: areas in the plane grow or shrink by at most this, over their chart's mean, > 1")
+      ->type_name("S")
+      ->group("Domain");
+  app.add_option(
+         "--crease-weight", charts.crease_weight,
+         "With charts: how much farther it is over a crease than around it, >= 0; seams lie where it is "
+         "far")
+      ->type_name("W")
+      ->group("Domain");
 }
 
 void add_smoothing_options(Command& command, SmoothingOptions& options) {

@@ -27,7 +27,7 @@ void add_fill_option(Command& command, anisomesh::FillOptions& options);
 void add_feature_options(Command& command, FeatureFlags& flags);
 void add_curvature_options(Command& command, anisomesh::CurvatureOptions& options);
 /// --domain.
-void add_domain_option(Command& command, anisomesh::Domain& domain);
+void add_domain_options(Command& command, anisomesh::Domain& domain, anisomesh::ChartOptions& charts);
 void add_smoothing_options(Command& command, anisomesh::SmoothingOptions& options);
 void add_density_options(Command& command, EpsilonFlags& epsilon, anisomesh::TraceOptions& options);
 void add_target_options(Command& command, anisomesh::TargetOptions& options);

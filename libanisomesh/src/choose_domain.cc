@@ -32,16 +32,21 @@ std::string try_plane(const SurfaceRef& surface, FlattenReport& report, const Pr
 }  // namespace
 
 DomainReport choose_domain(const SurfaceRef& surface, Domain wanted, const Progress& progress) {
+  return choose_domain(surface, wanted, ChartOptions(), progress);
+}
+
+DomainReport choose_domain(const SurfaceRef& surface, Domain wanted, const ChartOptions& charts,
+                           const Progress& progress) {
   if (!surface.canonical_copy())
     return detail::in_canonical_order(
-        surface, [&](const SurfaceRef& ordered) { return choose_domain(ordered, wanted, progress); });
+        surface, [&](const SurfaceRef& ordered) { return choose_domain(ordered, wanted, charts, progress); });
   const auto start = std::chrono::steady_clock::now();
   DomainReport report;
   if (wanted == Domain::plane) {
     report.flatten = flatten(surface, progress);
   } else if (wanted == Domain::charts) {
     require_property(surface.connectivity(), property::tensor);
-    report.charts = cut_into_charts(surface, {}, progress);
+    report.charts = cut_into_charts(surface, charts, progress);
     unflatten(surface);
     report.used = Domain::charts;
   } else {

@@ -12,6 +12,7 @@ void RemeshOptions::validate() const {
   TargetOptions::validate();
   features.validate();
   curvature.validate();
+  charts.validate();
   smoothing.validate();
   trace.validate();
   mesh.validate();
@@ -69,7 +70,7 @@ OpenMesh::PolyMesh remesh_tagged(const SurfaceRef& surface, const RemeshOptions&
                                  const Progress& progress) {
   // About the share of each stage in the time of a scan of 25,000 triangles remeshed to 4,000 faces.
   done.curvature = estimate_curvature(surface, options.curvature, sub_progress(progress, 0, 0.15));
-  done.domain = choose_domain(surface, options.domain, sub_progress(progress, 0.15, 0.3));
+  done.domain = choose_domain(surface, options.domain, options.charts, sub_progress(progress, 0.15, 0.3));
   done.smoothing = smooth_tensors(surface, options.smoothing, sub_progress(progress, 0.3, 0.4));
   report_progress(progress, 0.4);
   done.umbilics = find_umbilics(surface);

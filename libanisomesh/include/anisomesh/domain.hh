@@ -29,10 +29,16 @@ struct DomainReport {
 /// cut_into_charts() for charts, unflatten() and discard_charts() for the surface. `automatic` takes the
 /// plane for one component with one border loop and Euler characteristic 1 whose flattening succeeds, with a
 /// mean conformal distortion of at most 2 and no vertex stretched to less than 1e-5 of its area
-/// (docs/surface-domain.md).
+/// (docs/surface-domain.md). It never takes charts: on the same meshes they are no better than the surface
+/// (docs/charts.md).
 ///
-/// Reads: points, tensor, normal. Writes: as these.
-/// \throw as flatten(), with `automatic` only InvalidInput and Cancelled
+/// Reads: points, tensor, normal; with charts and keep_charts `chart`. Writes: as these.
+/// \param charts how the surface is cut, with `charts`
+/// \throw as flatten() and cut_into_charts(), with `automatic` only InvalidInput and Cancelled
+DomainReport choose_domain(const SurfaceRef& surface, Domain wanted, const ChartOptions& charts,
+                           const Progress& progress = {});
+
+/// The same with the default ChartOptions.
 DomainReport choose_domain(const SurfaceRef& surface, Domain wanted = Domain::automatic,
                            const Progress& progress = {});
 

@@ -29,6 +29,7 @@ struct RemeshOptions : TargetOptions {
   FeatureOptions features;
   CurvatureOptions curvature;
   Domain domain = Domain::automatic;
+  ChartOptions charts;  ///< only where `domain` is Domain::charts
   SmoothingOptions smoothing;
   TraceOptions trace;  ///< trace.density.epsilon_fraction is ignored where a target is given
   MeshOptions mesh;
