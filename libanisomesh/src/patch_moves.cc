@@ -247,10 +247,9 @@ PatchMove PatchMoves::addition(const PatchMesh& mesh, const PatchMesh::Patch& pa
   const Sample sample = sample_of(s.numbers[worst]);
   Vec3d middle = view.best_middle(view.best_middle(sample.place, s.ring), s.ring);
   PatchPieces found = partition_around(view, s.ring, middle);
-  const PatchPieces there = partition_around(view, s.ring, sample.place);
-  if (!(found.cost <= there.cost)) {
-    found = there;
+  if (!std::isfinite(found.cost)) {
     middle = sample.place;
+    found = partition_around(view, s.ring, middle);
   }
   if (!std::isfinite(found.cost)) return move;
   move.patch = patch;
@@ -349,7 +348,8 @@ std::vector<PatchMove> PatchMoves::additions_to(const PatchMesh& mesh, const std
     groups.push_back({static_cast<int>(p)});
     for (size_t i = 0; i < polygon.size(); ++i) {
       const int q = mesh.across(polygon[i], polygon[(i + 1) % polygon.size()]);
-      if (q >= 0) groups.push_back({static_cast<int>(p), q});
+      const bool again = q >= 0 && q < static_cast<int>(p) && wanted[at(q)];
+      if (q >= 0 && !again) groups.push_back({static_cast<int>(p), q});
     }
   }
   std::vector<PatchMove> moves(groups.size());
