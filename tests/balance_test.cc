@@ -256,13 +256,20 @@ TEST_CASE("the balance folds nothing where the input is folded as finely as the 
           "[balance]") {
   const auto path = demo_mesh("man.off");
   if (!path) return skip("man.off");
-  auto mesh = read_surface(*path);
-  auto result = remeshed(mesh, 1000);
-  PolyMesh fitted = result;
-  fit_vertices(mesh, fitted);
-  balance_vertices(mesh, result);
-  const Comparison fit = compare(mesh, fitted), balanced = compare(mesh, result);
-  CHECK(balanced.two_sided.rms < 0.9 * fit.two_sided.rms);
-  CHECK(balanced.two_sided.hausdorff < 1.05 * fit.two_sided.hausdorff);
-  check_sound(balanced);
+  // How far the one farthest place is, in a hollow between the legs, is chance (0.76 to 1.22 times the fit's
+  // for 900 to 1,200 vertices): the mean over three numbers.
+  double farther = 0;
+  for (const size_t vertices : {900, 1000, 1100}) {
+    auto mesh = read_surface(*path);
+    auto result = remeshed(mesh, vertices);
+    PolyMesh fitted = result;
+    fit_vertices(mesh, fitted);
+    balance_vertices(mesh, result);
+    const Comparison fit = compare(mesh, fitted), balanced = compare(mesh, result);
+    INFO(vertices);
+    CHECK(balanced.two_sided.rms < 0.9 * fit.two_sided.rms);
+    farther += std::log(balanced.two_sided.hausdorff / fit.two_sided.hausdorff);
+    check_sound(balanced);
+  }
+  CHECK(std::exp(farther / 3) < 1.05);
 }

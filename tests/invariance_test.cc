@@ -197,13 +197,14 @@ TEST_CASE("a renumbered surface gives the same polygons to the last bit", "[inva
 namespace {
 
 // As many polygons of the same corners, each where the change takes it.
-void check_polygons(const OpenMesh::TriMesh& given, double epsilon, size_t faces, bool symmetric = false) {
+void check_polygons(const OpenMesh::TriMesh& given, double epsilon, size_t faces, bool fit,
+                    bool symmetric = false) {
   OpenMesh::TriMesh original = given;
   original = copies::representable(original, SurfaceRef(original).diagonal());
   const double size = SurfaceRef(original).diagonal();
   const auto made = [&](OpenMesh::TriMesh& mesh, double box) {
     RemeshOptions options;
-    options.fit.enabled = false;  // which has ties of its own
+    options.fit.enabled = fit;
     options.features.automatic = false;
     options.target_faces = faces;
     if (faces == 0) options.trace.density.epsilon_fraction = epsilon * box;
@@ -240,12 +241,18 @@ void check_polygons(const OpenMesh::TriMesh& given, double epsilon, size_t faces
 
 TEST_CASE("polygons follow a shape that is moved, turned, scaled or renumbered", "[invariance]") {
   SECTION("a closed surface, at a number of faces") {
-    check_polygons(make_shape("ellipsoid", {3000, true}), 0, 500, true);
+    for (const bool fit : {false, true})
+      check_polygons(make_shape("ellipsoid", {3000, true}), 0, 500, fit, true);
   }
   SECTION("scans") {
     const std::string name = GENERATE("elephant.off", "lion-head.off", "cow.off");
     const auto path = demo_mesh(name);
     if (!path) return skip(name);
-    check_polygons(read_surface(*path), 0.001, 0);
+    check_polygons(read_surface(*path), 0.001, 0, false);
+  }
+  SECTION("a scan, fitted") {
+    const auto path = demo_mesh("elephant.off");
+    if (!path) return skip("elephant.off");
+    check_polygons(read_surface(*path), 0.001, 0, true);
   }
 }

@@ -34,7 +34,7 @@ OpenMesh::FaceHandle FitMatching::start_from_corners(const Triangle& corner, con
                     &z = surface_.point(c.vertex[2]);
         const Vec3d w = closest_barycentric(place, x, y, z);
         const double squared = (w[0] * x + w[1] * y + w[2] * z - place).sqrnorm() / (cosine * cosine);
-        if (squared < least) least = squared, best = f;
+        if (is_nearer(squared, least, (y - x).norm())) least = squared, best = f;
       }
   return best;
 }
@@ -60,7 +60,7 @@ FitMatching::Foot FitMatching::foot_of(const Vec3d& place, const Vec3d& normal, 
     double least = std::numeric_limits<double>::infinity();
     for (const int* i = begin; i < end; i += stride) {
       const double far = (samples_[at(*i)].place - place).sqrnorm();
-      if (far < least) least = far, best = samples_[at(*i)].face;
+      if (is_nearer(far, least, 0)) least = far, best = samples_[at(*i)].face;
     }
     return OpenMesh::FaceHandle(best);
   };
@@ -68,7 +68,7 @@ FitMatching::Foot FitMatching::foot_of(const Vec3d& place, const Vec3d& normal, 
   best.key = std::numeric_limits<double>::infinity();
   const auto look = [&](OpenMesh::FaceHandle face) {
     const Foot other = foot_from(place, normal, face);
-    if (other.key < best.key) best = other;
+    if (is_nearer(other.key, best.key, 0)) best = other;
   };
   if (before >= 0) {
     look(OpenMesh::FaceHandle(before));

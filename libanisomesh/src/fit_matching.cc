@@ -81,7 +81,7 @@ FitMatching::FitMatching(FitMatching&& earlier, const FitMesh& mesh,
       FitPair pair;
       int polygon = p;
       if (!nearest(sample.place, input_.normal[at(sample.face)], triangles, points, polygon, pair)) continue;
-      if (pair.distance < least) least = pair.distance, sample.polygon = polygon;
+      if (is_nearer(pair.distance, least, 0)) least = pair.distance, sample.polygon = polygon;
     }
   });
 }
@@ -170,7 +170,7 @@ bool FitMatching::nearest(const Vec3d& place, const Vec3d& normal, const FitTria
       const Vec3d &a = points[at(corner[0])], &b = points[at(corner[1])], &c = points[at(corner[2])];
       const Vec3d w = closest_barycentric(place, a, b, c);
       const double squared = (w[0] * a + w[1] * b + w[2] * c - place).sqrnorm();
-      if (!(squared < best)) continue;
+      if (!is_nearer(squared, best, triangles.radius[at(p)])) continue;
       best = squared;
       found = p;
       pair.triangle = t;

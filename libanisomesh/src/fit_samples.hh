@@ -5,12 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rounding.hh"
+
 namespace anisomesh::detail {
 
 constexpr double least_cosine = 0.05;  ///< what faces elsewhere counts as so much farther at most
 constexpr double near_match = 0.1;     ///< of the size of a polygon: such a foot is believed
 constexpr double tiny = 1e-9;          ///< of the diagonal: nearer than this there is no direction
 constexpr int max_divisions = 24;      ///< of the sides of one triangle
+
+/// Whether a squared distance is less than another. A foot on a common side of two polygons is as far from
+/// both, and belongs to the one that is met first: rounding does not choose. \param size of a polygon
+inline bool is_nearer(double squared, double than, double size) {
+  return squared < (1 - kTie) * than - kRounding * kRounding * size * size;
+}
 
 /// Into how many parts the sides of a triangle are divided, so that no piece has more than its share.
 inline int divisions(double area, double share) {

@@ -33,7 +33,7 @@ int FitMatching::best_at(const int* begin, const int* end, OpenMesh::FaceHandle 
         const Vec3d w = closest_barycentric(centre, x, y, z);
         // What faces the same way comes first where both are near.
         const double squared = (w[0] * x + w[1] * y + w[2] * z - centre).sqrnorm() / (cosine * cosine);
-        if (squared < least) least = squared, best = p;
+        if (is_nearer(squared, least, triangles.radius[at(p)])) least = squared, best = p;
       }
     }
   return best;
@@ -102,7 +102,8 @@ void FitMatching::start_in_large_faces(const std::vector<int>& first_sample, con
     for (int i = first_sample[f]; i < first_sample[f + 1]; ++i) {
       Sample& sample = samples_[at(i)];
       const int v = *std::min_element(vertices[f].begin(), vertices[f].end(), [&](int a, int b) {
-        return (points[at(a)] - sample.place).sqrnorm() < (points[at(b)] - sample.place).sqrnorm();
+        return is_nearer((points[at(a)] - sample.place).sqrnorm(), (points[at(b)] - sample.place).sqrnorm(),
+                         0);
       });
       int other = best_at(&v, &v + 1, OpenMesh::FaceHandle(sample.face), triangles, points);
       FitPair from_face, from_vertex;
@@ -110,7 +111,7 @@ void FitMatching::start_in_large_faces(const std::vector<int>& first_sample, con
       const bool known =
           sample.polygon >= 0 && nearest(sample.place, normal, triangles, points, sample.polygon, from_face);
       if (other >= 0 && nearest(sample.place, normal, triangles, points, other, from_vertex) &&
-          (!known || from_vertex.distance < from_face.distance))
+          (!known || is_nearer(from_vertex.distance, from_face.distance, 0)))
         sample.polygon = other;
     }
   });

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <limits>
+#include <numeric>
+
 #include "fit_guard.hh"
+#include "rounding.hh"
 
 namespace anisomesh::detail {
 
@@ -21,11 +23,20 @@ constexpr double worth_adding = 2;      // mean errors: there a vertex may be ad
 constexpr double worth_adding_where_lacking = 1.2;
 constexpr double hanging = 3;  // times the error of the input beside it, or the mean one
 
+// Of moves that gain the same but for rounding, as one quad parted alone or with what stays beside it, the
+// first comes first.
 void sort_by_gain(std::vector<PatchMove>& moves) {
   moves.erase(std::remove_if(moves.begin(), moves.end(), [](const PatchMove& m) { return m.pieces.empty(); }),
               moves.end());
-  std::stable_sort(moves.begin(), moves.end(),
-                   [](const PatchMove& a, const PatchMove& b) { return a.gain > b.gain; });
+  std::vector<double> gains;
+  for (const PatchMove& move : moves) gains.push_back(move.gain);
+  gains = in_steps(std::move(gains));
+  std::vector<size_t> order(moves.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return gains[a] > gains[b]; });
+  std::vector<PatchMove> sorted;
+  for (const size_t i : order) sorted.push_back(std::move(moves[i]));
+  moves = std::move(sorted);
 }
 
 // What the sides inside a patch cost as they are.

@@ -6,6 +6,7 @@
 
 #include "numerics/tensor3d.hh"
 #include "polygon_judge.hh"
+#include "rounding.hh"
 
 namespace anisomesh::detail {
 
@@ -112,7 +113,8 @@ Vec3d PatchView::best_middle(const Vec3d& start, const std::vector<Vec3d>& ring)
 
 namespace {
 
-/// Dynamic program over the chords of a ring.
+/// Dynamic program over the chords of a ring. Where nothing tells directions, quads that pair the same
+/// triangles differently cost the same, and the first is taken: rounding does not choose.
 class RingProgram {
  public:
   RingProgram(const PatchView& view, const std::vector<Vec3d>& ring, const std::vector<char>& forbidden)
@@ -166,7 +168,7 @@ class RingProgram {
           const double right = cost(k, j);
           if (left + right + triangle_cost_ < best) {
             const double sum = left + right + triangle_cost_ + triangle(i, k, j);
-            if (sum < best) best = sum, choice_[i * n_ + j] = {k, 0};
+            if (is_surely_less(sum, best)) best = sum, choice_[i * n_ + j] = {k, 0};
           }
         }
         for (size_t l = k + 1; l < j && view_.costs().quads; ++l) {
@@ -174,7 +176,7 @@ class RingProgram {
           const double rest = left + cost(k, l) + cost(l, j);
           if (!(rest < best)) continue;
           const double sum = rest + quad(i, k, l, j);
-          if (sum < best) best = sum, choice_[i * n_ + j] = {k, l};
+          if (is_surely_less(sum, best)) best = sum, choice_[i * n_ + j] = {k, l};
         }
       }
     return known = best + (inner ? view_.chord(ring_[i], ring_[j]) : 0);
@@ -230,12 +232,12 @@ PatchPieces partition_around(const PatchView& view, const std::vector<Vec3d>& ri
     cost[0] = 0;
     for (size_t i = 1; i <= n; ++i) {
       cost[i] = cost[i - 1] + triangle[(start + i - 1) % n];
-      if (i >= 2 && view.costs().quads && cost[i - 2] + quad[(start + i - 2) % n] < cost[i]) {
+      if (i >= 2 && view.costs().quads && is_surely_less(cost[i - 2] + quad[(start + i - 2) % n], cost[i])) {
         cost[i] = cost[i - 2] + quad[(start + i - 2) % n];
         by_quad[i] = 1;
       }
     }
-    if (!(cost[n] < best.cost)) continue;
+    if (!is_surely_less(cost[n], best.cost)) continue;
     std::vector<std::vector<int>> pieces;
     for (size_t i = n; i > 0;) {
       const size_t first = start + i - (by_quad[i] ? 2 : 1);
