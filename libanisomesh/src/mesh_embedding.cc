@@ -26,6 +26,7 @@ constexpr double negligible =
 constexpr double thinner = 0.02;  // which may leave so much of the area
 constexpr double pi = 3.14159265358979323846;
 constexpr int flip_passes = 50, vertices_a_breath = 256;
+constexpr size_t most_judged = 64;   // neighbours, by what each would turn over: the nearest
 constexpr size_t nearest_tried = 6;  // neighbours that a vertex may be moved to, unless nothing else is left
 
 }  // namespace
@@ -197,20 +198,32 @@ void MeshEmbedding::drop(int node) {
 }
 
 bool MeshEmbedding::take_out(VertexHandle v, Care care) {
+  using Neighbour = std::pair<double, VertexHandle>;
+  const auto ascending = [](const std::vector<VertexHandle>& beside, auto&& measure) {
+    std::vector<double> keys;
+    for (const auto w : beside) keys.push_back(measure(w));
+    keys = in_steps(std::move(keys));
+    std::vector<Neighbour> result;
+    for (size_t i = 0; i < keys.size(); ++i) result.emplace_back(keys[i], beside[i]);
+    std::sort(result.begin(), result.end());
+    return result;
+  };
   std::vector<VertexHandle> beside;
   for (const auto w : mesh_.vv_range(v)) beside.push_back(w);
-  std::vector<double> keys;
-  for (const auto w : beside)  // something will be turned over at last: as little as can be
-    keys.push_back(care == Care::topology ? -lowest_cosine(v, w)
-                                          : (mesh_.point(w) - mesh_.point(v)).sqrnorm());
-  keys = in_steps(std::move(keys));
-  std::vector<std::pair<double, VertexHandle>> near;
-  for (size_t i = 0; i < keys.size(); ++i) near.emplace_back(keys[i], beside[i]);
-  std::sort(near.begin(), near.end());
-  const size_t tried = care == Care::topology ? near.size() : std::min(near.size(), nearest_tried);
+  const bool last = care == Care::topology;
+  std::vector<Neighbour> near;
+  if (!last || beside.size() > most_judged)
+    near = ascending(beside, [&](VertexHandle w) { return (mesh_.point(w) - mesh_.point(v)).sqrnorm(); });
+  if (last) {  // something will be turned over at last: as little as can be
+    if (!near.empty()) {
+      beside.clear();
+      for (size_t i = 0; i < most_judged; ++i) beside.push_back(near[i].second);
+    }
+    near = ascending(beside, [&](VertexHandle w) { return -lowest_cosine(v, w); });
+  }
+  const size_t tried = last ? near.size() : std::min(near.size(), nearest_tried);
   for (size_t i = 0; i < tried; ++i) {
-    if (care == Care::topology && !(near[i].first < 0))
-      break;  // this one turns a triangle over, and the rest
+    if (last && !(near[i].first < 0)) break;  // this one turns a triangle over, and the rest
     if (collapse(v, near[i].second, care)) return true;
   }
   return false;

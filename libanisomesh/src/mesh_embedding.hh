@@ -81,6 +81,9 @@ class MeshEmbedding final : public Embedding {
     std::vector<Point> points;
     bool closed = true;  ///< the last vertex of the ring is a neighbour of the first
     bool has_samples = false;
+    std::vector<std::pair<int, size_t>> order;  ///< of a large ring, by vertex: where it is in the ring
+    void sort();                                ///< when the ring is complete
+    const Vec2d* place_of(int vertex) const;    ///< of a vertex of the ring, or null
   };
   /// A triangle that takes the place of a part of the star.
   struct Candidate {

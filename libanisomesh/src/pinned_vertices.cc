@@ -24,9 +24,28 @@ constexpr double least_weight = 0.01;    // what is pinned stays clear of the si
 constexpr double sharp_cosine = 0.9;     // of a face to the normal at its vertex
 constexpr double least_agreement = 0.3;  // cosine of a triangle to the surface at its samples
 
+constexpr size_t small_ring = 24;  // is searched as it is
+
 double cross2(const Vec2d& a, const Vec2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 }  // namespace
+
+void MeshEmbedding::FlatStar::sort() {
+  order.clear();
+  if (ring.size() <= small_ring) return;
+  for (size_t i = 0; i < ring.size(); ++i) order.emplace_back(ring[i].first, i);
+  std::sort(order.begin(), order.end());
+}
+
+const Vec2d* MeshEmbedding::FlatStar::place_of(int vertex) const {
+  if (order.empty()) {
+    const auto found =
+        std::find_if(ring.begin(), ring.end(), [vertex](const auto& entry) { return entry.first == vertex; });
+    return found == ring.end() ? nullptr : &found->second;
+  }
+  const auto found = std::lower_bound(order.begin(), order.end(), std::pair<int, size_t>{vertex, 0});
+  return found == order.end() || found->first != vertex ? nullptr : &ring[found->second].second;
+}
 
 // In the middle of each part that the lines leave of a triangle of the surface whose corners are all on
 // features, the border or other sharp edges, or that is so large that no corner may be near.
@@ -101,6 +120,7 @@ void MeshEmbedding::lay_flat(VertexHandle v) {
     star_.ring[i].second = length * Vec2d(std::cos(scale * angles[i]), std::sin(scale * angles[i]));
   }
   star_.closed = !open;
+  star_.sort();
   star_.points.clear();
   star_.has_samples = false;
   for (const FaceHandle f : faces) add_points(f);
@@ -120,6 +140,7 @@ void MeshEmbedding::lay_flat(OpenMesh::EdgeHandle e) {
     return Vec2d(off | along, side * cross(along, off).norm());
   };
   star_.ring = {{a.idx(), {0, 0}}, {b.idx(), {length, 0}}, {c.idx(), apex(c, 1)}, {d.idx(), apex(d, -1)}};
+  star_.sort();
   star_.points.clear();
   star_.has_samples = false;
   for (const auto f : {mesh_.face_handle(h), mesh_.face_handle(o)}) add_points(f);
@@ -131,10 +152,8 @@ void MeshEmbedding::add_points(FaceHandle f) {
   std::array<Vec2d, 3> corner;
   size_t k = 0;
   for (const auto v : mesh_.fv_range(f)) {
-    corner[k] = {0, 0};  // the vertex that the star is around
-    for (const auto& entry : star_.ring)
-      if (entry.first == v.idx()) corner[k] = entry.second;
-    ++k;
+    const Vec2d* place = star_.place_of(v.idx());
+    corner[k++] = place ? *place : Vec2d(0, 0);  // the vertex that the star is around
   }
   for (const Pinned& x : pinned) {
     star_.points.push_back({x.vertex, x.barycentric[0] * corner[0] + x.barycentric[1] * corner[1] +
@@ -149,12 +168,10 @@ std::vector<MeshEmbedding::Candidate> MeshEmbedding::placed(const std::vector<Ca
   for (Candidate candidate : candidates) {
     size_t known = 0;
     for (size_t k = 0; k < 3; ++k)
-      for (const auto& entry : star_.ring)
-        if (entry.first == candidate.node[k]) {
-          candidate.corner[k] = entry.second;
-          ++known;
-          break;
-        }
+      if (const Vec2d* place = star_.place_of(candidate.node[k])) {
+        candidate.corner[k] = *place;
+        ++known;
+      }
     if (known < 3) continue;
     const auto& c = candidate.corner;
     candidate.area = cross2(c[1] - c[0], c[2] - c[0]);

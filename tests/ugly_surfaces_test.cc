@@ -1,0 +1,158 @@
+// Surfaces as others bring them: each is read, remeshed with the options as they are, and comes out valid.
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <random>
+
+#include "anisomesh/errors.hh"
+#include "anisomesh/io.hh"
+#include "anisomesh/remesh.hh"
+#include "catch.hh"
+#include "data.hh"
+#include "sound_result.hh"
+
+using namespace anisomesh;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+struct Soup {
+  std::vector<Vec3d> points;
+  std::vector<std::array<int, 3>> faces;
+
+  OpenMesh::TriMesh read() const {
+    const TemporaryFolder folder;
+    {
+      std::ofstream file(folder / "soup.off");
+      file.precision(17);
+      file << "OFF\n" << points.size() << " " << faces.size() << " 0\n";
+      for (const Vec3d& p : points) file << p[0] << " " << p[1] << " " << p[2] << "\n";
+      for (const auto& f : faces) file << "3 " << f[0] << " " << f[1] << " " << f[2] << "\n";
+    }
+    return read_surface(folder / "soup.off");
+  }
+};
+
+/// n times m squares, each in two triangles; the columns may close, as they are or upside down.
+Soup sheet(int n, int m, bool closed, bool turned, const std::function<Vec3d(double, double)>& place) {
+  Soup soup;
+  for (int i = 0; i < n + !closed; ++i)
+    for (int j = 0; j <= m; ++j)
+      soup.points.push_back(place(static_cast<double>(i) / n, static_cast<double>(j) / m));
+  const auto at = [&](int i, int j) { return closed && i == n ? (turned ? m - j : j) : i * (m + 1) + j; };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < m; ++j) {
+      soup.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      soup.faces.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  return soup;
+}
+
+Vec3d around(double u, double radius, double z) {
+  return {radius * std::cos(2 * pi * u), radius * std::sin(2 * pi * u), z};
+}
+
+/// A double cone whose tips have n triangles each.
+Soup spindle(int n) {
+  Soup soup;
+  for (int i = 0; i < n; ++i) soup.points.push_back(around(static_cast<double>(i) / n, 1, 0));
+  soup.points.emplace_back(0, 0, 0.4);
+  soup.points.emplace_back(0, 0, -0.4);
+  for (int i = 0; i < n; ++i) {
+    soup.faces.push_back({n, i, (i + 1) % n});
+    soup.faces.push_back({n + 1, (i + 1) % n, i});
+  }
+  return soup;
+}
+
+/// What stays true also where reading has cut the surface open, so that copies of its vertices are in one
+/// place.
+Comparison remeshed(OpenMesh::TriMesh mesh, size_t faces) {
+  RemeshOptions options;
+  options.target_faces = faces;
+  auto result = remesh(mesh, options);
+  CompareOptions compare_options;
+  compare_options.samples = 5000;
+  const Comparison c = compare(mesh, result, compare_options);
+  CHECK(c.same_topology);
+  CHECK(c.concave_faces == 0);
+  CHECK(c.degenerate_faces == 0);
+  CHECK(c.folded_faces == 0);
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("one-sided surfaces are cut open and remeshed", "[ugly]") {
+  const auto moebius = sheet(60, 8, true, true, [](double u, double v) {
+    const double off = 0.5 * (v - 0.5);
+    return around(u, 1 + off * std::cos(pi * u), off * std::sin(pi * u));
+  });
+  CHECK(remeshed(moebius.read(), 400).two_sided.rms < 0.002);
+}
+
+TEST_CASE("three sheets that share an edge, and two solids that share a vertex, stay what they are",
+          "[ugly]") {
+  Soup fan;
+  for (const double angle : {0.0, 0.6, 1.2}) {
+    const auto one = sheet(6, 6, false, false, [&](double u, double v) { return around(angle, u, v); });
+    const int first = static_cast<int>(fan.points.size());
+    for (const Vec3d& p : one.points) fan.points.push_back(p);
+    for (auto f : one.faces) {
+      for (int& i : f) i = i < 7 ? i : i + first;  // the first column is that of the first sheet
+      fan.faces.push_back(f);
+    }
+  }
+  CHECK(remeshed(fan.read(), 20).components == 3);
+  const Soup tips{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+                  {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}, {0, 4, 5}, {0, 6, 4}, {4, 6, 5}, {0, 5, 6}}};
+  CHECK(remeshed(tips.read(), 8).faces == 8);
+}
+
+TEST_CASE("needles, fans of a vertex and plates without thickness are remeshed", "[ugly]") {
+  const auto needles = sheet(400, 1, true, false, [](double u, double v) { return around(u, 1, 10 * v); });
+  check_sound(remeshed(needles.read(), 300));
+  check_sound(remeshed(spindle(300).read(), 300));
+  Soup plate = sheet(12, 12, false, false, [](double u, double v) { return Vec3d(u, v, 0); });
+  const int top = static_cast<int>(plate.points.size());
+  const auto below = plate.faces;
+  for (int i = 0; i < top; ++i)
+    plate.points.push_back(plate.points[static_cast<size_t>(i)] + Vec3d(0, 0, 1e-4));
+  for (const auto& f : below) plate.faces.push_back({f[0] + top, f[1] + top, f[2] + top});
+  for (auto& f : plate.faces)
+    if (f[0] < top) std::swap(f[1], f[2]);
+  std::vector<int> rim;
+  for (int i = 0; i < 12; ++i) rim.push_back(13 * i);
+  for (int i = 0; i < 12; ++i) rim.push_back(13 * 12 + i);
+  for (int i = 12; i > 0; --i) rim.push_back(13 * i + 12);
+  for (int i = 12; i > 0; --i) rim.push_back(i);
+  for (size_t i = 0; i < rim.size(); ++i) {
+    const int a = rim[i], b = rim[(i + 1) % rim.size()];
+    plate.faces.push_back({a, b, b + top});
+    plate.faces.push_back({a, b + top, a + top});
+  }
+  const auto c = remeshed(plate.read(), 50);
+  check_sound(c);
+  CHECK(c.euler_characteristic == 2);
+}
+
+TEST_CASE("a scan with noise of half its edges comes out valid", "[ugly]") {
+  std::mt19937 random(1);
+  const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0 - 0.5; };
+  const double edge = 1.0 / 24;
+  const auto noisy = sheet(24, 24, false, false, [&](double u, double v) {
+    const auto off = [&] { return edge * (uniform() + uniform() + uniform()); };  // deviation: half an edge
+    return Vec3d(u + off(), v + off(), 0.3 * std::sin(3 * u) + off());
+  });
+  remeshed(noisy.read(), 300);
+}
+
+TEST_CASE("what is no surface is refused with its reason", "[ugly]") {
+  const Soup flat{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}};
+  CHECK_THROWS_AS(remeshed(flat.read(), 10), InvalidInput);
+  const Soup huge{{{0, 0, 0}, {1e300, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  CHECK_THROWS_AS(remeshed(huge.read(), 10), InvalidInput);
+  Soup missing{{{0, 0, 0}, {std::nan(""), 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  CHECK_THROWS_AS(missing.read(), InvalidInput);
+}
