@@ -308,7 +308,8 @@ std::vector<Sides> sides_of(OpenMesh::TriMesh& mesh, Domain domain, const Settin
     options.target_faces = 0;  // the options that a target sets
     options.trace.seed_fraction = 0.8;
     options.mesh.cell_tolerance = 4;
-    const double step = 1 + 0.02 * static_cast<double>(k / 2 + 1);
+    const size_t steps = k / 2 + 1;
+    const double step = 1 + 0.02 * static_cast<double>(steps);
     options.trace.density.epsilon_fraction = epsilon * std::pow(step, k % 2 == 0 ? 1 : -1);
   }
   return sides;
