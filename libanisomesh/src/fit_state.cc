@@ -18,6 +18,7 @@ constexpr int max_attempts = 3;
 constexpr double settled = 0.995;  // of the squared error: a pass that gains less is the last
 constexpr double longer = 1.5;     // than what the linearized terms ask for: with 2 passes as near as 3 to 4
 constexpr double shorter = 0.4;    // a step that did not help
+constexpr double coarse_share = 0.2, fineness = 10, most_alignment = 2.75;  // [docs/fit.md]
 
 std::vector<Vec3d> points_of(const OpenMesh::PolyMesh& result) {
   std::vector<Vec3d> points;
@@ -138,9 +139,16 @@ int FitState::improve_often(int passes, size_t* held, const Progress& progress) 
   return done;
 }
 
+double FitState::alignment_factor() const {
+  const double share =
+      static_cast<double>(points_.size()) / static_cast<double>(surface_.connectivity().n_vertices());
+  return std::clamp(1 + fineness * (share - coarse_share), 1.0, most_alignment);
+}
+
 std::vector<Vec3d> FitState::solve() const {
   FitSystem system(free_, pattern_);
-  add_surface_terms(mesh_, triangles_, input_, forms_, points_, options_, typical_energy(pairs_), system);
+  add_surface_terms(mesh_, triangles_, input_, forms_, points_, options_,
+                    alignment_factor() * typical_energy(pairs_), system);
   double area = 0;
   for (const double a : triangles_.area) area += a;
   if (area > 0) curves_.add_terms(points_, std::sqrt(area / mesh_.n_polygons()), area, system);

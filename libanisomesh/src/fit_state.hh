@@ -29,6 +29,11 @@ class FitState {
   const FitMatching& matching() const { return matching_; }
   const std::vector<FitPair>& pairs() const { return pairs_.pair; }
 
+  /// How many times more alignment counts than on a result that is far coarser than its input. With more
+  /// vertices than a fifth of the input's, what a result gains in distance is more and more how the input was
+  /// sampled.
+  double alignment_factor() const;
+
   /// Takes one step, if there is one that lowers the energy. \return vertices that were held back
   size_t improve();
   /// At most so often, until little is gained. \return how often

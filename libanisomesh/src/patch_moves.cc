@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "fit_guard.hh"
 #include "rounding.hh"
@@ -21,7 +22,8 @@ constexpr double worth_a_look = 1.2;    // mean errors: better polygons are left
 constexpr double tried_removals = 0.3;  // of all vertices, those that seem cheapest
 constexpr double worth_adding = 2;      // mean errors: there a vertex may be added
 constexpr double worth_adding_where_lacking = 1.2;
-constexpr double hanging = 3;  // times the error of the input beside it, or the mean one
+constexpr double lying_across = 0.3;  // mean errors: a side that costs more for how it lies is looked at
+constexpr double hanging = 3;         // times the error of the input beside it, or the mean one
 
 // Of moves that gain the same but for rounding, as one quad parted alone or with what stays beside it, the
 // first comes first.
@@ -93,16 +95,22 @@ bool folds(const PatchMesh& mesh, const PatchMove& move) {
   return lowest < lowest_before;
 }
 
-// A polygon with each two of its neighbours.
-void add_threes(const PatchMesh& mesh, int p, std::vector<std::vector<int>>& groups) {
+// The polygons beside one.
+std::vector<int> around(const PatchMesh& mesh, int p) {
   const auto& polygon = mesh.polygons()[at(p)];
-  std::vector<int> around;
+  std::vector<int> result;
   for (size_t i = 0; i < polygon.size(); ++i) {
     const int q = mesh.across(polygon[i], polygon[(i + 1) % polygon.size()]);
-    if (q >= 0 && std::find(around.begin(), around.end(), q) == around.end()) around.push_back(q);
+    if (q >= 0 && std::find(result.begin(), result.end(), q) == result.end()) result.push_back(q);
   }
-  for (size_t i = 0; i < around.size(); ++i)
-    for (size_t j = 0; j < i; ++j) groups.push_back({p, around[j], around[i]});
+  return result;
+}
+
+// A polygon with each two of its neighbours.
+void add_threes(const PatchMesh& mesh, int p, std::vector<std::vector<int>>& groups) {
+  const std::vector<int> beside = around(mesh, p);
+  for (size_t i = 0; i < beside.size(); ++i)
+    for (size_t j = 0; j < i; ++j) groups.push_back({p, beside[j], beside[i]});
 }
 
 }  // namespace
@@ -154,7 +162,8 @@ PatchMoves::PatchMoves(const SurfaceRef& surface, const FitInput& input, const F
   for (const auto& side : mesh.sides)
     length += (fit.points()[at(side.to)] - fit.points()[at(side.from)]).norm();
   if (length > 0)
-    costs_.chord = options.alignment_cost * mean_error_ * static_cast<double>(mesh.sides.size()) / length;
+    costs_.chord = options.alignment_cost * fit.alignment_factor() * mean_error_ *
+                   static_cast<double>(mesh.sides.size()) / length;
 }
 
 // A polygon that hangs in the air, as over a fold, is far from the input while little of the input is beside
@@ -279,25 +288,50 @@ PatchMove PatchMoves::addition(const PatchMesh& mesh, const PatchMesh::Patch& pa
   return move;
 }
 
+bool PatchMoves::is_across(const PatchMesh& mesh, const PatchMesh::Patch& patch) const {
+  const Situation s = look_at(mesh, patch);
+  return s.possible &&
+         inner_chords(mesh, patch, PatchView(s.normal, {}, s.tensor, costs_)) > lying_across * mean_error_;
+}
+
+// Neighbours that are far off, or triangles, or on both sides of an edge that lies diagonally to the
+// principal directions; these also with each polygon beside them, as often it takes another to lay the edge
+// better.
+std::vector<PatchMove> PatchMoves::of_neighbours(const PatchMesh& mesh, int p, int q) const {
+  std::vector<PatchMove> moves;
+  const auto& polygons = mesh.polygons();
+  const PatchMesh::Patch both = mesh.join({p, q});
+  const bool across = is_across(mesh, both), triangles = polygons[at(p)].size() + polygons[at(q)].size() == 6;
+  if (across || triangles || error_[at(p)] + error_[at(q)] > 2 * worth_a_look * mean_error_)
+    moves.push_back(partition(mesh, both, true));
+  if (across)
+    for (const auto& [one, other] : {std::pair(p, q), std::pair(q, p)})
+      for (const int beside : around(mesh, one))
+        if (beside != other) moves.push_back(partition(mesh, mesh.join({p, q, beside}), true));
+  return moves;
+}
+
 std::vector<PatchMove> PatchMoves::repartitions(const PatchMesh& mesh) const {
   std::vector<std::vector<int>> groups;
   for (size_t p = 0; p < error_.size(); ++p) {
-    const auto& polygon = mesh.polygons()[p];
-    if (polygon.size() > 3 && error_[p] > worth_a_look * mean_error_) groups.push_back({static_cast<int>(p)});
-    for (size_t i = 0; i < polygon.size(); ++i) {
-      const int q = mesh.across(polygon[i], polygon[(i + 1) % polygon.size()]);
-      if (q <= static_cast<int>(p)) continue;
-      const bool triangles = polygon.size() == 3 && mesh.polygons()[at(q)].size() == 3;
-      if (triangles || error_[p] + error_[at(q)] > 2 * worth_a_look * mean_error_)
-        groups.push_back({static_cast<int>(p), q});
-    }
+    if (mesh.polygons()[p].size() > 3 && error_[p] > worth_a_look * mean_error_)
+      groups.push_back({static_cast<int>(p)});
+    for (const int q : around(mesh, static_cast<int>(p)))
+      if (q > static_cast<int>(p)) groups.push_back({static_cast<int>(p), q});
     if (hangs_[p]) add_threes(mesh, static_cast<int>(p), groups);
   }
-  std::vector<PatchMove> moves(groups.size());
+  std::vector<std::vector<PatchMove>> found(groups.size());
   tbb::parallel_for(size_t{0}, groups.size(), [&](size_t i) {
-    PatchMove move = partition(mesh, mesh.join(groups[i]), true);
-    if (move.gain > 0.05 * mean_error_) moves[i] = std::move(move);
+    const auto& group = groups[i];
+    if (group.size() == 2)
+      found[i] = of_neighbours(mesh, group[0], group[1]);
+    else
+      found[i].push_back(partition(mesh, mesh.join(group), true));
   });
+  std::vector<PatchMove> moves;
+  for (auto& of_group : found)
+    for (PatchMove& move : of_group)
+      if (move.gain > 0.05 * mean_error_) moves.push_back(std::move(move));
   sort_by_gain(moves);
   return moves;
 }

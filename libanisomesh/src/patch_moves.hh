@@ -47,6 +47,8 @@ class PatchMoves {
   Situation look_at(const PatchMesh& mesh, const PatchMesh::Patch& patch) const;
   double guess(const PatchMesh& mesh, const PatchMesh::Patch& star, int vertex) const;
   PatchMove partition(const PatchMesh& mesh, const PatchMesh::Patch& patch, bool keeps_vertices) const;
+  bool is_across(const PatchMesh& mesh, const PatchMesh::Patch& patch) const;
+  std::vector<PatchMove> of_neighbours(const PatchMesh& mesh, int p, int q) const;
   std::vector<PatchMove> additions_to(const PatchMesh& mesh, const std::vector<char>& wanted,
                                       double least_gain) const;
   PatchMove addition(const PatchMesh& mesh, const PatchMesh::Patch& patch) const;

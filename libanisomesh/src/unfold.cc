@@ -4,6 +4,8 @@
 
 #include "anisomesh/properties.hh"
 #include "compare_parts.hh"
+#include "patch_mesh.hh"
+#include "patch_partition.hh"
 
 namespace anisomesh::detail {
 
@@ -36,6 +38,92 @@ std::vector<char> folds_of(const ReferenceSurface& reference, const OpenMesh::Po
   return folded_faces(reference, PolygonSoup(mesh, FaceDiagonal::shorter));
 }
 
+/// Seen along the reference's normals at the polygons and at what is around them.
+Vec3d normal_of(const ReferenceSurface& reference, const PatchMesh& mesh, const PatchMesh::Patch& patch) {
+  Vec3d sum(0, 0, 0);
+  const auto add = [&](const Vec3d& p) {
+    sum += reference.normals[static_cast<size_t>(reference.tree.closest(p).triangle)];
+  };
+  for (const int v : patch.ring) add(mesh.point(v));
+  for (const int p : patch.polygons) {
+    const auto& polygon = mesh.polygons()[static_cast<size_t>(p)];
+    Vec3d middle(0, 0, 0);
+    for (const int v : polygon) middle += mesh.point(v) / static_cast<double>(polygon.size());
+    add(middle);
+  }
+  const double length = sum.norm();
+  return length > 0 ? sum / length : sum;
+}
+
+bool is_folded(const ReferenceSurface& reference, const std::vector<Vec3d>& ring,
+               const std::vector<std::vector<int>>& pieces) {
+  OpenMesh::PolyMesh mesh;
+  for (const Vec3d& p : ring) mesh.add_vertex(p);
+  for (const auto& piece : pieces) {
+    std::vector<OpenMesh::VertexHandle> corners;
+    for (const int i : piece) corners.emplace_back(i);
+    mesh.add_face(corners);
+  }
+  return mesh.n_faces() != pieces.size() || count(folds_of(reference, mesh)) > 0;
+}
+
+/// Parts a patch into as few triangles as can be, so that none of the pieces is folded.
+bool part_anew(const ReferenceSurface& reference, const PatchMesh::Patch& patch, PatchMesh& mesh) {
+  constexpr size_t most_corners = 12;
+  const size_t n = patch.ring.size();
+  if (n < 3 || n > most_corners) return false;
+  std::vector<Vec3d> ring;
+  for (const int v : patch.ring) ring.push_back(mesh.point(v));
+  std::vector<char> forbidden(n * n, 0);
+  for (size_t i = 0; i < n; ++i)
+    for (size_t j = i + 2; j < n; ++j)
+      forbidden[i * n + j] = mesh.joined_outside(patch, patch.ring[i], patch.ring[j]);
+  PatchCosts costs;
+  costs.triangle = 1;
+  const PatchView view(normal_of(reference, mesh, patch), {}, Vec6d(0, 0, 0, 0, 0, 0), costs);
+  PatchPieces found = partition_ring(view, ring, forbidden);
+  if (found.pieces.empty() || is_folded(reference, ring, found.pieces)) return false;
+  for (auto& piece : found.pieces)
+    for (int& i : piece) i = patch.ring[static_cast<size_t>(i)];
+  if (!mesh.may_replace(patch, found.pieces)) return false;
+  mesh.replace(patch, found.pieces);
+  return true;
+}
+
+/// A folded face with one, then two of its neighbours; at last without one of its corners.
+std::vector<PatchMesh::Patch> patches_around(const PatchMesh& mesh, int face) {
+  const auto beside = [&](int p) {
+    const auto& polygon = mesh.polygons()[static_cast<size_t>(p)];
+    std::vector<int> result;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const int q = mesh.across(polygon[i], polygon[(i + 1) % polygon.size()]);
+      if (q >= 0 && q != face) result.push_back(q);
+    }
+    return result;
+  };
+  std::vector<PatchMesh::Patch> patches;
+  const std::vector<int> first = beside(face);
+  for (const int q : first) patches.push_back(mesh.join({face, q}));
+  for (size_t i = 0; i < first.size(); ++i)
+    for (size_t j = 0; j < i; ++j) patches.push_back(mesh.join({face, first[j], first[i]}));
+  for (const int q : first)
+    for (const int r : beside(q)) patches.push_back(mesh.join({face, q, r}));
+  for (const int v : mesh.polygons()[static_cast<size_t>(face)]) patches.push_back(mesh.star(v));
+  return patches;
+}
+
+/// Folds that stay wherever their corners go: polygons that were put together wrongly.
+OpenMesh::PolyMesh parted_anew(const ReferenceSurface& reference, const OpenMesh::PolyMesh& result,
+                               const std::vector<char>& folded) {
+  PatchMesh mesh(result);
+  for (size_t f = 0; f < folded.size(); ++f) {
+    if (!folded[f] || mesh.polygons()[f].empty()) continue;
+    for (const PatchMesh::Patch& patch : patches_around(mesh, static_cast<int>(f)))
+      if (part_anew(reference, patch, mesh)) break;
+  }
+  return mesh.mesh();
+}
+
 /// \return how many folds are left
 size_t unfold(const SurfaceRef& surface, const ReferenceSurface& reference, OpenMesh::PolyMesh& mesh) {
   auto folded = folds_of(reference, mesh);
@@ -46,7 +134,12 @@ size_t unfold(const SurfaceRef& surface, const ReferenceSurface& reference, Open
     mesh = std::move(moved);
     folded = std::move(after);
   }
-  return count(folded);
+  if (count(folded) == 0) return 0;
+  auto parted = parted_anew(reference, mesh, folded);
+  const size_t left = count(folds_of(reference, parted));
+  if (left >= count(folded)) return count(folded);
+  mesh = std::move(parted);
+  return left;
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ struct BalanceOptions {
   size_t target_vertices = 0;
   /// What a triangle costs on top of its error, in mean errors of a polygon: more keeps more quads; >= 0
   double triangle_cost = 0.8;
-  /// What a side of mean length costs that lies diagonally to the principal directions, in the same unit; >=
-  /// 0
+  /// What a side of mean length costs that lies diagonally to the principal directions, in the same unit, and
+  /// up to 2.75 times that as for FitOptions::alignment_weight; >= 0
   double alignment_cost = 1.5;
   /// At last quads are split whose two triangles' normals are nearer to the input's, by so many times what a
   /// polygon is off on the mean; 0: all that gain, infinite: none; >= 0

@@ -1,0 +1,77 @@
+// Folds that moving corners cannot take out: polygons that were put together wrongly.
+#include "unfold.hh"
+
+#include "anisomesh/compare.hh"
+#include "anisomesh/mesher.hh"
+#include "anisomesh/properties.hh"
+#include "anisomesh/shapes.hh"
+#include "catch.hh"
+
+using namespace anisomesh;
+using OpenMesh::PolyMesh;
+
+namespace {
+
+/// The result of a plane, of vertices in the faces that hold them and polygons.
+PolyMesh result_on(const SurfaceRef& plane, const std::vector<Vec3d>& places,
+                   const std::vector<std::vector<int>>& polygons) {
+  PolyMesh result;
+  const auto face = provide_property(result, property::source_face);
+  const auto barycentric = provide_property(result, property::source_barycentric);
+  const auto origin = provide_property(result, property::origin);
+  provide_property(result, property::edge_kind);
+  for (const Vec3d& p : places) {
+    const auto v = result.add_vertex(p);
+    result.property(origin, v) = static_cast<int>(Origin::crossing);
+    for (const auto f : plane.connectivity().faces()) {
+      const auto c = plane.corners(f);
+      const Vec3d a = plane.point(c.vertex[0]), b = plane.point(c.vertex[1]), d = plane.point(c.vertex[2]);
+      const double area = ((b - a) % (d - a))[2], s = ((d - b) % (p - b))[2] / area,
+                   t = ((a - d) % (p - d))[2] / area;
+      if (s < -1e-9 || t < -1e-9 || 1 - s - t < -1e-9) continue;
+      result.property(face, v) = f.idx();
+      result.property(barycentric, v) = Vec3d(s, t, 1 - s - t);
+    }
+  }
+  for (const auto& polygon : polygons) {
+    std::vector<OpenMesh::VertexHandle> corners;
+    for (const int v : polygon) corners.emplace_back(v);
+    result.add_face(corners);
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a fold that stays wherever its corners go is parted anew", "[unfold]") {
+  auto plane = make_shape("plane", {900, false});
+  const SurfaceRef surface = plane;
+  // A square and, on top of it, a triangle that faces down: what lies around both is concave at 3.
+  const std::vector<Vec3d> places{
+      {-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {0, -0.2, 0}, {-0.5, 0.5, 0}};
+  const PolyMesh sound = result_on(surface, places, {{0, 1, 3}, {1, 2, 3}, {0, 3, 4}});
+  std::vector<PolyMesh> candidates{result_on(surface, places, {{0, 1, 2, 4}, {2, 3, 4}})};
+  REQUIRE(candidates[0].n_faces() == 2);
+  REQUIRE(compare(plane, candidates[0]).folded_faces > 0);
+  CHECK(detail::choose_unfolded(surface, sound, candidates) == 0);
+  PolyMesh& mended = candidates[0];
+  CHECK(compare(plane, mended).folded_faces == 0);
+  CHECK(mended.n_vertices() == 5);
+  double area = 0;
+  for (const auto f : mended.faces()) {
+    const auto corners = f.vertices().to_array<3>();
+    area += 0.5 * ((mended.point(corners[1]) - mended.point(corners[0])) %
+                   (mended.point(corners[2]) - mended.point(corners[0])))[2];
+  }
+  CHECK(area == Approx(1 - 0.5 * 0.7));
+}
+
+TEST_CASE("without folds the last candidate is taken as it is", "[unfold]") {
+  auto plane = make_shape("plane", {900, false});
+  const SurfaceRef surface = plane;
+  const std::vector<Vec3d> places{{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}};
+  const PolyMesh quad = result_on(surface, places, {{0, 1, 2, 3}});
+  std::vector<PolyMesh> candidates{quad, result_on(surface, places, {{0, 1, 2}, {0, 2, 3}})};
+  CHECK(detail::choose_unfolded(surface, quad, candidates) == 1);
+  CHECK(candidates[1].n_faces() == 2);
+}
