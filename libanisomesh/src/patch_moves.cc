@@ -31,12 +31,14 @@ void sort_by_gain(std::vector<PatchMove>& moves) {
   moves.erase(std::remove_if(moves.begin(), moves.end(), [](const PatchMove& m) { return m.pieces.empty(); }),
               moves.end());
   std::vector<double> gains;
+  gains.reserve(moves.size());
   for (const PatchMove& move : moves) gains.push_back(move.gain);
   gains = in_steps(std::move(gains));
   std::vector<size_t> order(moves.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return gains[a] > gains[b]; });
   std::vector<PatchMove> sorted;
+  sorted.reserve(moves.size());
   for (const size_t i : order) sorted.push_back(std::move(moves[i]));
   moves = std::move(sorted);
 }
