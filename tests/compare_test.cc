@@ -411,3 +411,28 @@ TEST_CASE("what cannot be compared is refused", "[compare]") {
   CHECK_THROWS_AS(compare(reference, good, {}, [](double) { return false; }), Cancelled);
   CHECK_FALSE(has_property(good, property::error));
 }
+
+TEST_CASE("a wall beside a flat face does not make right what is turned over there", "[compare]") {
+  // A tall box, a little narrower below: its walls face down by half a degree.
+  const auto box = [](auto& mesh) {
+    std::vector<OpenMesh::VertexHandle> v;
+    for (const double z : {0.0, 2.0})
+      for (const auto& [x, y] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}) {
+        const double wide = z > 0 ? 1 : 0.98;
+        v.push_back(mesh.add_vertex(Vec3d(0.5 + wide * (x - 0.5), 0.5 + wide * (y - 0.5), z)));
+      }
+    mesh.add_face(std::vector<OpenMesh::VertexHandle>{v[3], v[2], v[1], v[0]});
+    for (size_t i = 0; i < 4; ++i)
+      mesh.add_face(std::vector<OpenMesh::VertexHandle>{v[i], v[(i + 1) % 4], v[4 + (i + 1) % 4], v[4 + i]});
+    return v;
+  };
+  OpenMesh::TriMesh reference;
+  const auto r = box(reference);
+  reference.add_face(std::vector<OpenMesh::VertexHandle>{r[4], r[5], r[6], r[7]});
+  OpenMesh::PolyMesh result;
+  const auto v = box(result);
+  const auto beyond = result.add_vertex(Vec3d(1.3, 0.5, 2));
+  result.add_face(std::vector<OpenMesh::VertexHandle>{v[4], v[5], beyond, v[6], v[7]});
+  result.add_face(std::vector<OpenMesh::VertexHandle>{v[5], v[6], beyond});
+  CHECK(compare(reference, result).folded_faces == 1);
+}

@@ -14,6 +14,8 @@ namespace {
 /// How far from the nearest point, as a share of the face's diameter, the reference may turn to a face's
 /// side for the face still to be right.
 constexpr double reach = 0.5;
+/// Cosine: a wall beside a flat face faces neither way, whichever side rounding puts it on.
+constexpr double at_right_angles = 0.03;
 /// Two neighbours lie folded onto each other when their normals differ by more than 170 degrees.
 const double folded_cosine = std::cos(170.0 / 180 * 3.14159265358979323846);
 
@@ -22,7 +24,7 @@ const double folded_cosine = std::cos(170.0 / 180 * 3.14159265358979323846);
 /// be on the other is no fold.
 bool is_against(const ReferenceSurface& reference, const Vec3d& p, const Vec3d& normal, double diameter) {
   const auto agrees = [&](int triangle) {
-    return dot(reference.normals[static_cast<size_t>(triangle)], normal) > 0;
+    return dot(reference.normals[static_cast<size_t>(triangle)], normal) > at_right_angles;
   };
   const ClosestPoint nearest = reference.tree.closest(p);
   if (agrees(nearest.triangle)) return false;

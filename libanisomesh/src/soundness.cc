@@ -21,6 +21,7 @@ constexpr double least_area = 1e-5;   // twice the area over the squared diamete
 constexpr double surely_right = 0.3;  // cosine to the surface's normal at all corners: no closer look needed
 constexpr double folded_cosine = -0.985;  // neighbours lie on each other: 170 degrees
 constexpr double reach = 0.5;             // of the diameter: how far away the surface may face the right way
+constexpr double at_right_angles = 0.03;   // cosine: a wall beside a flat face faces neither way
 constexpr double thin_area = 1e-3;        // likewise: more samples would not help such a polygon
 constexpr int max_repairs = 3;            // rounds
 constexpr size_t most_corners = 12;       // of what is cut up anew; twice as many around a vertex that goes
@@ -144,7 +145,8 @@ bool Soundness::is_against(const Vec2d& uv, OpenMesh::FaceHandle start, const Ve
     const double distance = (b[0] * p + b[1] * q + b[2] * r - place).norm();
     if (distance > limit) continue;
     nearest = std::min(nearest, distance);
-    if ((cross(q - p, r - p) | normal) > 0) {
+    const Vec3d n = cross(q - p, r - p);
+    if ((n | normal) > at_right_angles * n.norm() * normal.norm()) {
       if (distance <= reach * diameter) return false;
       nearest_right = std::min(nearest_right, distance);
     }
