@@ -46,11 +46,19 @@ bool border_crosses_itself(const TriMesh& mesh, const std::vector<Vec2d>& map) {
   for (const auto e : mesh.edges())
     if (e.is_boundary()) edges.emplace_back(e.v0().idx(), e.v1().idx());
   const auto side = [&](int a, int b, int c) { return detail::cross2(map[b] - map[a], map[c] - map[a]) > 0; };
+  // On a straight border rounding decides on which side of another edge one is: they are apart all the same.
+  const auto apart = [&](int a, int b, int c, int d) {
+    for (const size_t k : {size_t{0}, size_t{1}})
+      if (std::max(map[a][k], map[b][k]) < std::min(map[c][k], map[d][k]) ||
+          std::max(map[c][k], map[d][k]) < std::min(map[a][k], map[b][k]))
+        return true;
+    return false;
+  };
   for (size_t i = 0; i < edges.size(); ++i)
     for (size_t j = i + 1; j < edges.size(); ++j) {
       const auto [a, b] = edges[i];
       const auto [c, d] = edges[j];
-      if (a == c || a == d || b == c || b == d) continue;
+      if (a == c || a == d || b == c || b == d || apart(a, b, c, d)) continue;
       if (side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)) return true;
     }
   return false;
