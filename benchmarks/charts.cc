@@ -307,6 +307,7 @@ std::vector<Sides> sides_of(OpenMesh::TriMesh& mesh, Domain domain, const Settin
     if (k == 0) epsilon = report.epsilon_fraction;
     options.target_faces = 0;  // the options that a target sets
     options.trace.seed_fraction = 0.8;
+    options.trace.relax_passes = 0;
     options.mesh.cell_tolerance = 4;
     const size_t steps = k / 2 + 1;
     const double step = 1 + 0.02 * static_cast<double>(steps);

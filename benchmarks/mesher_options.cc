@@ -67,6 +67,7 @@ int main(int argc, char** argv) {
   find_umbilics(surface);
   TraceOptions trace;
   trace.seed_fraction = 0.8;  // as for a target, too
+  trace.relax_passes = 0;
   trace.density.epsilon_fraction = argc > 2 ? std::atof(argv[2]) : 0.00045;
   trace_lines(surface, trace);
   place_isotropic_samples(surface, trace);

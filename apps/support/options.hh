@@ -26,7 +26,7 @@ struct EpsilonFlags {
 void add_fill_option(Command& command, anisomesh::FillOptions& options);
 void add_feature_options(Command& command, FeatureFlags& flags);
 void add_curvature_options(Command& command, anisomesh::CurvatureOptions& options);
-/// --domain.
+/// --domain, and how charts are cut.
 void add_domain_options(Command& command, anisomesh::Domain& domain, anisomesh::ChartOptions& charts);
 void add_smoothing_options(Command& command, anisomesh::SmoothingOptions& options);
 void add_density_options(Command& command, EpsilonFlags& epsilon, anisomesh::TraceOptions& options);

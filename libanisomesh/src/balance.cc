@@ -10,6 +10,7 @@
 #include "canonical_copy.hh"
 #include "patch_moves.hh"
 #include "quad_splits.hh"
+#include "recorded.hh"
 #include "unfold.hh"
 
 namespace anisomesh {
@@ -53,9 +54,7 @@ struct Wanted {
   Wanted(const SurfaceRef& surface, const OpenMesh::PolyMesh& result, const BalanceOptions& options) {
     const auto& mesh = surface.connectivity();
     const auto of_search = [&](const auto& declaration) {
-      return has_property(mesh, declaration)
-                 ? static_cast<size_t>(mesh.property(require_property(mesh, declaration)))
-                 : size_t{0};
+      return static_cast<size_t>(detail::recorded(mesh, declaration, 0));
     };
     vertices = options.target_vertices;
     if (vertices == 0) vertices = of_search(property::target_vertices);

@@ -6,16 +6,12 @@
 #include <map>
 
 #include "compare_parts.hh"
+#include "fold_limits.hh"
 
 namespace anisomesh::detail {
 
 namespace {
 
-/// How far from the nearest point, as a share of the face's diameter, the reference may turn to a face's
-/// side for the face still to be right.
-constexpr double reach = 0.5;
-/// Cosine: a wall beside a flat face faces neither way, whichever side rounding puts it on.
-constexpr double at_right_angles = 0.03;
 /// Two neighbours lie folded onto each other when their normals differ by more than 170 degrees.
 const double folded_cosine = std::cos(170.0 / 180 * 3.14159265358979323846);
 

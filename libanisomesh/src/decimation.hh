@@ -9,7 +9,7 @@ namespace anisomesh::detail {
 struct DecimationOptions {
   double chain_tolerance =
       0;  ///< a straightened chain stays this near to its samples, model units; infinite: the paper
-  double finite_tolerance = 0;  ///< the same where only a share of it holds, see NetworkGraph::share
+  double finite_tolerance = 0;   ///< the same where only a share of it holds, see NetworkGraph::share
   double feature_tolerance = 0;  ///< a feature stays this near to its samples, model units
   double merge_fraction =
       0;  ///< an edge shorter than this fraction of those it continues is contracted; 0: none

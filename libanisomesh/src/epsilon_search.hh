@@ -8,6 +8,8 @@
 
 namespace anisomesh::detail {
 
+constexpr double kMet = 0.1;  ///< a count within this fraction of the target meets it
+
 struct EpsilonSearch {
   /// How many crossings a density asks for, epsilon as a fraction of the diagonal: falls as epsilon grows.
   std::function<double(double epsilon)> crossings;
@@ -33,8 +35,8 @@ struct FoundEpsilon {
 
 /// Seeks the epsilon whose result has `wanted` faces or vertices: a guess from the density, then a secant.
 /// One that is refused is followed by a smaller one, a few times; where no attempt has a result, coarser and
-/// finer ones are tried, past the number of attempts too. \throw CannotProcess of the last attempt if none had
-/// a result; what `make` throws else
+/// finer ones are tried, past the number of attempts too. \throw CannotProcess of the last attempt if none
+/// had a result; what `make` throws else
 FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const EpsilonSearch& search);
 
 }  // namespace anisomesh::detail

@@ -211,16 +211,15 @@ bool MeshEmbedding::take_out(VertexHandle v, Care care) {
   std::vector<VertexHandle> beside;
   for (const auto w : mesh_.vv_range(v)) beside.push_back(w);
   const bool last = care == Care::topology;
-  std::vector<Neighbour> near;
-  if (!last || beside.size() > most_judged)
-    near = ascending(beside, [&](VertexHandle w) { return (mesh_.point(w) - mesh_.point(v)).sqrnorm(); });
-  if (last) {  // something will be turned over at last: as little as can be
-    if (!near.empty()) {
-      beside.clear();
-      for (size_t i = 0; i < most_judged; ++i) beside.push_back(near[i].second);
-    }
-    near = ascending(beside, [&](VertexHandle w) { return -lowest_cosine(v, w); });
+  const auto away = [&](VertexHandle w) { return (mesh_.point(w) - mesh_.point(v)).sqrnorm(); };
+  if (last && beside.size() > most_judged) {
+    const auto nearest = ascending(beside, away);
+    beside.clear();
+    for (size_t i = 0; i < most_judged; ++i) beside.push_back(nearest[i].second);
   }
+  // At last something will be turned over: as little as can be.
+  const auto turned = [&](VertexHandle w) { return -lowest_cosine(v, w); };
+  const auto near = last ? ascending(beside, turned) : ascending(beside, away);
   const size_t tried = last ? near.size() : std::min(near.size(), nearest_tried);
   for (size_t i = 0; i < tried; ++i) {
     if (last && !(near[i].first < 0)) break;  // this one turns a triangle over, and the rest

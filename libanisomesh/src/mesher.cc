@@ -15,6 +15,7 @@
 #include "polygon_attempt.hh"
 #include "polygon_output.hh"
 #include "polygons.hh"
+#include "recorded.hh"
 #include "soundness.hh"
 #include "upright_quads.hh"
 
@@ -39,18 +40,13 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// What an earlier stage has left on the mesh.
-double recorded(const OpenMesh::TriConnectivity& mesh, const property::OnMesh<double>& declaration,
-                double otherwise) {
-  return has_property(mesh, declaration) ? mesh.property(require_property(mesh, declaration)) : otherwise;
-}
-
 /// What MeshOptions::for_fit multiplies.
 constexpr double fitted_chains = 1.5, fitted_cells = 2, fitted_alignment = 4;
 
 /// Leaves no option to be found elsewhere.
 MeshOptions resolved(MeshOptions options, const OpenMesh::TriConnectivity& mesh) {
-  if (options.cell_tolerance == 0) options.cell_tolerance = recorded(mesh, property::cell_tolerance, 2);
+  if (options.cell_tolerance == 0)
+    options.cell_tolerance = detail::recorded(mesh, property::cell_tolerance, 2.0);
   if (options.for_fit) {
     options.chain_tolerance *= fitted_chains;
     options.cell_tolerance *= fitted_cells;
@@ -58,7 +54,8 @@ MeshOptions resolved(MeshOptions options, const OpenMesh::TriConnectivity& mesh)
     options.for_fit = false;
   }
   if (options.feature_tolerance == 0)
-    options.feature_tolerance = recorded(mesh, property::feature_tolerance, detail::asked_feature_tolerance);
+    options.feature_tolerance =
+        detail::recorded(mesh, property::feature_tolerance, detail::asked_feature_tolerance);
   return options;
 }
 
@@ -153,7 +150,7 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
   report_progress(progress, 0);
   const LineNetwork lines = read_lines(surface);
   const double epsilon =
-      recorded(surface.connectivity(), property::epsilon, std::numeric_limits<double>::infinity());
+      detail::recorded(surface.connectivity(), property::epsilon, std::numeric_limits<double>::infinity());
 
   const detail::SurfaceNormals normals(surface);
   const auto drawing =

@@ -55,6 +55,16 @@ int PatchMesh::across(int v, int w) const {
   return -1;
 }
 
+std::vector<int> PatchMesh::around(int polygon) const {
+  const auto& corners = polygons_[static_cast<size_t>(polygon)];
+  std::vector<int> result;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const int q = across(corners[i], corners[(i + 1) % corners.size()]);
+    if (q >= 0 && std::find(result.begin(), result.end(), q) == result.end()) result.push_back(q);
+  }
+  return result;
+}
+
 PatchMesh::Patch PatchMesh::star(int vertex) const {
   if (vertices_[at(vertex)].on_curve || vertices_[at(vertex)].polygons.empty()) return {};
   Patch patch = with_ring(vertices_[at(vertex)].polygons);
@@ -117,6 +127,15 @@ int PatchMesh::edges_outside(const Patch& patch, int v) const {
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   return static_cast<int>(
       std::count_if(ends.begin(), ends.end(), [&](int w) { return !contains(inside, w); }));
+}
+
+std::vector<char> PatchMesh::forbidden_chords(const Patch& patch) const {
+  const size_t n = patch.ring.size();
+  std::vector<char> forbidden(n * n, 0);
+  for (size_t i = 0; i < n; ++i)
+    for (size_t j = i + 2; j < n; ++j)
+      forbidden[i * n + j] = joined_outside(patch, patch.ring[i], patch.ring[j]);
+  return forbidden;
 }
 
 bool PatchMesh::may_replace(const Patch& patch, const std::vector<std::vector<int>>& pieces) const {

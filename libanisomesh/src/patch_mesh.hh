@@ -34,12 +34,17 @@ class PatchMesh {
 
   /// The polygon across the side from v to w, unless a feature or the border lies there; -1.
   int across(int v, int w) const;
+  /// The polygons across the sides of one, each once.
+  std::vector<int> around(int polygon) const;
   /// Polygons around an inner vertex; without a ring where it is on a curve.
   Patch star(int vertex) const;
   /// Polygons that touch along sides.
   Patch join(const std::vector<int>& polygons) const;
   /// Whether v and w are joined by an edge of a polygon that is not in the patch.
   bool joined_outside(const Patch& patch, int v, int w) const;
+  /// For each pair of corners i < j of the ring, at i * n + j, whether they are joined outside, so that no
+  /// piece may join them.
+  std::vector<char> forbidden_chords(const Patch& patch) const;
   /// Whether pieces can take the place of the patch: no edge a second time, no inner vertex with two edges
   /// only, whose polygons would share both. A vertex to be added is -1.
   bool may_replace(const Patch& patch, const std::vector<std::vector<int>>& pieces) const;

@@ -17,7 +17,6 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-constexpr size_t most_corners = 12;     // of a patch
 constexpr double worth_a_look = 1.2;    // mean errors: better polygons are left alone
 constexpr double tried_removals = 0.3;  // of all vertices, those that seem cheapest
 constexpr double worth_adding = 2;      // mean errors: there a vertex may be added
@@ -97,20 +96,9 @@ bool folds(const PatchMesh& mesh, const PatchMove& move) {
   return lowest < lowest_before;
 }
 
-// The polygons beside one.
-std::vector<int> around(const PatchMesh& mesh, int p) {
-  const auto& polygon = mesh.polygons()[at(p)];
-  std::vector<int> result;
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const int q = mesh.across(polygon[i], polygon[(i + 1) % polygon.size()]);
-    if (q >= 0 && std::find(result.begin(), result.end(), q) == result.end()) result.push_back(q);
-  }
-  return result;
-}
-
 // A polygon with each two of its neighbours.
 void add_threes(const PatchMesh& mesh, int p, std::vector<std::vector<int>>& groups) {
-  const std::vector<int> beside = around(mesh, p);
+  const std::vector<int> beside = mesh.around(p);
   for (size_t i = 0; i < beside.size(); ++i)
     for (size_t j = 0; j < i; ++j) groups.push_back({p, beside[j], beside[i]});
 }
@@ -225,10 +213,7 @@ PatchMoves::Situation PatchMoves::look_at(const PatchMesh& mesh, const PatchMesh
   const double length = s.normal.norm();
   if (!(length > 0)) return s;
   s.normal /= length;
-  s.forbidden.assign(n * n, 0);
-  for (size_t i = 0; i < n; ++i)
-    for (size_t j = i + 2; j < n; ++j)
-      s.forbidden[i * n + j] = mesh.joined_outside(patch, patch.ring[i], patch.ring[j]);
+  s.forbidden = mesh.forbidden_chords(patch);
   s.possible = true;
   return s;
 }
@@ -308,7 +293,7 @@ std::vector<PatchMove> PatchMoves::of_neighbours(const PatchMesh& mesh, int p, i
     moves.push_back(partition(mesh, both, true));
   if (across)
     for (const auto& [one, other] : {std::pair(p, q), std::pair(q, p)})
-      for (const int beside : around(mesh, one))
+      for (const int beside : mesh.around(one))
         if (beside != other) moves.push_back(partition(mesh, mesh.join({p, q, beside}), true));
   return moves;
 }
@@ -318,7 +303,7 @@ std::vector<PatchMove> PatchMoves::repartitions(const PatchMesh& mesh) const {
   for (size_t p = 0; p < error_.size(); ++p) {
     if (mesh.polygons()[p].size() > 3 && error_[p] > worth_a_look * mean_error_)
       groups.push_back({static_cast<int>(p)});
-    for (const int q : around(mesh, static_cast<int>(p)))
+    for (const int q : mesh.around(static_cast<int>(p)))
       if (q > static_cast<int>(p)) groups.push_back({static_cast<int>(p), q});
     if (hangs_[p]) add_threes(mesh, static_cast<int>(p), groups);
   }

@@ -10,6 +10,8 @@
 
 namespace anisomesh::detail {
 
+constexpr size_t most_corners = 12;  ///< of a ring: more take too long
+
 struct PatchSample {
   Vec3d place{0, 0, 0};
   double weight = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "numerics/bvh.hh"
 #include "numerics/shorter_diagonal.hh"
@@ -169,14 +171,15 @@ bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& 
   corners_.corner_normal.emplace_back(0, 0, 0);
   const SurfacePoint point = chosen->point;
   region_.probes.erase(region_.probes.begin() + (chosen - region_.probes.data()));
-  const SmallTriangulation before = triangulation;
+  std::optional<SmallTriangulation> before;
+  if (corners_.on_surface && region_.share < 1) before = triangulation;
   if (!triangulation.insert(static_cast<int>(corners_.uv.size()) - 1)) {
     drop_last_corner();
     return true;
   }
   if (options_.flip_edges) flip_to_lower_cost(triangulation);
-  if (corners_.on_surface && region_.share < 1 && folds(triangulation) > folds(before)) {
-    triangulation = before;
+  if (before && folds(triangulation) > folds(*before)) {
+    triangulation = std::move(*before);
     drop_last_corner();
   } else {
     result.added.push_back(point);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "canonical_copy.hh"
+#include "epsilon_search.hh"
 
 namespace anisomesh {
 
@@ -90,7 +91,7 @@ OpenMesh::PolyMesh remesh_tagged(const SurfaceRef& surface, const RemeshOptions&
     if (const double wanted = static_cast<double>(std::max(options.target_faces, options.target_vertices));
         options.fit.enabled && wanted > 0) {
       const size_t count = options.target_faces > 0 ? result.n_faces() : result.n_vertices();
-      done.target_met = std::abs(static_cast<double>(count) / wanted - 1) <= 0.1;
+      done.target_met = std::abs(static_cast<double>(count) / wanted - 1) <= detail::kMet;
     }
   }
   return result;

@@ -8,6 +8,7 @@
 
 #include "anisomesh/errors.hh"
 #include "conforming.hh"
+#include "fold_limits.hh"
 #include "numerics/bvh.hh"
 
 namespace anisomesh::detail {
@@ -20,8 +21,6 @@ size_t at(int i) { return static_cast<size_t>(i); }
 constexpr double least_area = 1e-5;   // twice the area over the squared diameter
 constexpr double surely_right = 0.3;  // cosine to the surface's normal at all corners: no closer look needed
 constexpr double folded_cosine = -0.985;  // neighbours lie on each other: 170 degrees
-constexpr double reach = 0.5;             // of the diameter: how far away the surface may face the right way
-constexpr double at_right_angles = 0.03;   // cosine: a wall beside a flat face faces neither way
 constexpr double thin_area = 1e-3;        // likewise: more samples would not help such a polygon
 constexpr int max_repairs = 3;            // rounds
 constexpr size_t most_corners = 12;       // of what is cut up anew; twice as many around a vertex that goes

@@ -17,8 +17,9 @@ class Soundness {
   Soundness(const SurfaceRef& surface, const SurfaceLocator& locator, const PolygonJudge& judge, bool convex)
       : surface_(surface), locator_(locator), judge_(judge), convex_(convex) {}
 
-  /// Partitions anew around polygons that are unsound or touch themselves or each other. \return the unsound that are left
-  /// \param may_drop vertices, too, where nothing else helps; otherwise only of polygons that are very thin
+  /// Partitions anew around polygons that are unsound or touch themselves or each other. \return the unsound
+  /// that are left \param may_drop vertices, too, where nothing else helps; otherwise only of polygons that
+  /// are very thin
   std::vector<std::vector<int>> repair(std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
                                        int max_degree, bool may_drop);
   /// Those that repair() has left with a side that lies on one between other nodes, and need not.

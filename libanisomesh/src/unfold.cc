@@ -69,19 +69,14 @@ bool is_folded(const ReferenceSurface& reference, const std::vector<Vec3d>& ring
 
 /// Parts a patch into as few triangles as can be, so that none of the pieces is folded.
 bool part_anew(const ReferenceSurface& reference, const PatchMesh::Patch& patch, PatchMesh& mesh) {
-  constexpr size_t most_corners = 12;
   const size_t n = patch.ring.size();
   if (n < 3 || n > most_corners) return false;
   std::vector<Vec3d> ring;
   for (const int v : patch.ring) ring.push_back(mesh.point(v));
-  std::vector<char> forbidden(n * n, 0);
-  for (size_t i = 0; i < n; ++i)
-    for (size_t j = i + 2; j < n; ++j)
-      forbidden[i * n + j] = mesh.joined_outside(patch, patch.ring[i], patch.ring[j]);
   PatchCosts costs;
   costs.triangle = 1;
   const PatchView view(normal_of(reference, mesh, patch), {}, Vec6d(0, 0, 0, 0, 0, 0), costs);
-  PatchPieces found = partition_ring(view, ring, forbidden);
+  PatchPieces found = partition_ring(view, ring, mesh.forbidden_chords(patch));
   if (found.pieces.empty() || is_folded(reference, ring, found.pieces)) return false;
   for (auto& piece : found.pieces)
     for (int& i : piece) i = patch.ring[static_cast<size_t>(i)];
@@ -92,22 +87,14 @@ bool part_anew(const ReferenceSurface& reference, const PatchMesh::Patch& patch,
 
 /// A folded face with one, then two of its neighbours; at last without one of its corners.
 std::vector<PatchMesh::Patch> patches_around(const PatchMesh& mesh, int face) {
-  const auto beside = [&](int p) {
-    const auto& polygon = mesh.polygons()[static_cast<size_t>(p)];
-    std::vector<int> result;
-    for (size_t i = 0; i < polygon.size(); ++i) {
-      const int q = mesh.across(polygon[i], polygon[(i + 1) % polygon.size()]);
-      if (q >= 0 && q != face) result.push_back(q);
-    }
-    return result;
-  };
   std::vector<PatchMesh::Patch> patches;
-  const std::vector<int> first = beside(face);
+  const std::vector<int> first = mesh.around(face);
   for (const int q : first) patches.push_back(mesh.join({face, q}));
   for (size_t i = 0; i < first.size(); ++i)
     for (size_t j = 0; j < i; ++j) patches.push_back(mesh.join({face, first[j], first[i]}));
   for (const int q : first)
-    for (const int r : beside(q)) patches.push_back(mesh.join({face, q, r}));
+    for (const int r : mesh.around(q))
+      if (r != face) patches.push_back(mesh.join({face, q, r}));
   for (const int v : mesh.polygons()[static_cast<size_t>(face)]) patches.push_back(mesh.star(v));
   return patches;
 }

@@ -54,9 +54,7 @@ SmallTriangulation::SmallTriangulation(const std::vector<Vec2d>& points,
   }
 }
 
-double SmallTriangulation::turn(int a, int b, int c) const {
-  return turn_of((*points_)[at(a)], (*points_)[at(b)], (*points_)[at(c)]);
-}
+double SmallTriangulation::turn(int a, int b, int c) const { return turn_of(point(a), point(b), point(c)); }
 
 size_t SmallTriangulation::index_of_neighbor(int t, int neighbor) const {
   const auto& n = neighbors_[at(t)];
@@ -80,7 +78,7 @@ int SmallTriangulation::locate(const Vec2d& p) const {
     bool inside = true;
     for (size_t i = 0; i < 3 && next < 0; ++i) {
       const size_t k = (i + step) % 3;  // not always the same side first, or the walk may circle
-      if (turn_of((*points_)[at(corner[(k + 1) % 3])], (*points_)[at(corner[(k + 2) % 3])], p) >= 0) continue;
+      if (turn_of(point(corner[(k + 1) % 3]), point(corner[(k + 2) % 3]), p) >= 0) continue;
       inside = false;
       if (neighbors_[at(t)][k] >= 0) next = neighbors_[at(t)][k];
     }
@@ -91,8 +89,7 @@ int SmallTriangulation::locate(const Vec2d& p) const {
   // The region need not be convex: the walk may meet its border on the way.
   double best = -std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < triangles_.size() && best < 0; ++i) {
-    const Vec2d &a = (*points_)[at(triangles_[i][0])], &b = (*points_)[at(triangles_[i][1])],
-                &c = (*points_)[at(triangles_[i][2])];
+    const Vec2d &a = point(triangles_[i][0]), &b = point(triangles_[i][1]), &c = point(triangles_[i][2]);
     const double lowest =
         std::min({turn_of(a, b, p), turn_of(b, c, p), turn_of(c, a, p)}) / std::abs(turn_of(a, b, c));
     if (lowest <= best) continue;
@@ -107,8 +104,7 @@ bool SmallTriangulation::can_flip(int t, size_t k) const {
   const auto& corner = triangles_[at(t)];
   const int apex = corner[k], a = corner[(k + 1) % 3], b = corner[(k + 2) % 3], foot = across(t, k);
   const auto strict = [&](int x, int y, int z) {
-    return turn(x, y, z) >
-           convex_turn * ((*points_)[at(y)] - (*points_)[at(x)]).norm() * ((*points_)[at(z)] - (*points_)[at(x)]).norm();
+    return turn(x, y, z) > convex_turn * (point(y) - point(x)).norm() * (point(z) - point(x)).norm();
   };
   if (!strict(apex, a, foot) || !strict(foot, b, apex)) return false;
   // An inner corner of three triangles would keep two on each other; only where the drawing is not without
@@ -139,7 +135,7 @@ void SmallTriangulation::flip(int t, size_t k) {
 }
 
 bool SmallTriangulation::insert(int corner) {
-  const int t = locate((*points_)[at(corner)]);
+  const int t = locate(point(corner));
   const std::array<int, 3> c = triangles_[at(t)], n = neighbors_[at(t)];
   int edges = 0;
   for (size_t k = 0; k < 3; ++k) {
@@ -175,8 +171,8 @@ void SmallTriangulation::legalize(int corner) {
     size_t k = 0;
     while (k < 3 && triangles_[at(t)][k] != corner) ++k;
     if (k == 3 || neighbors_[at(t)][k] < 0) continue;
-    const Vec2d &apex = (*points_)[at(corner)], &a = (*points_)[at(triangles_[at(t)][(k + 1) % 3])],
-                &b = (*points_)[at(triangles_[at(t)][(k + 2) % 3])], &foot = (*points_)[at(across(t, k))];
+    const Vec2d &apex = point(corner), &a = point(triangles_[at(t)][(k + 1) % 3]),
+                &b = point(triangles_[at(t)][(k + 2) % 3]), &foot = point(across(t, k));
     // On an edge the new corner has made a triangle without area; the flip takes it away.
     const bool flat = turn_of(apex, a, b) <= 1e-12 * (a - b).sqrnorm();
     const bool in_circle = cosine(apex, a, b) + cosine(foot, a, b) < -delaunay_gain;

@@ -33,7 +33,9 @@ class SmallTriangulation {
   void replace_neighbor(int t, int old_one, int new_one);
   void legalize(int corner);
 
-  const std::vector<OpenMesh::Vec2d>* points_;
+  const OpenMesh::Vec2d& point(int corner) const { return (*points_)[static_cast<size_t>(corner)]; }
+
+  const std::vector<OpenMesh::Vec2d>* points_;  // no reference: copies are assigned
   std::vector<std::array<int, 3>> triangles_, neighbors_;
   mutable int last_ = 0;
 };
