@@ -50,11 +50,11 @@ TEST_CASE("a fold that stays wherever its corners go is parted anew", "[unfold]"
   const std::vector<Vec3d> places{
       {-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {0, -0.2, 0}, {-0.5, 0.5, 0}};
   const PolyMesh sound = result_on(surface, places, {{0, 1, 3}, {1, 2, 3}, {0, 3, 4}});
-  std::vector<PolyMesh> candidates{result_on(surface, places, {{0, 1, 2, 4}, {2, 3, 4}})};
-  REQUIRE(candidates[0].n_faces() == 2);
-  REQUIRE(compare(plane, candidates[0]).folded_faces > 0);
-  CHECK(detail::choose_unfolded(surface, sound, candidates) == 0);
-  PolyMesh& mended = candidates[0];
+  std::vector<PolyMesh> candidates{sound, result_on(surface, places, {{0, 1, 2, 4}, {2, 3, 4}})};
+  REQUIRE(candidates[1].n_faces() == 2);
+  REQUIRE(compare(plane, candidates[1]).folded_faces > 0);
+  CHECK(detail::choose_unfolded(surface, candidates) == 1);
+  PolyMesh& mended = candidates[1];
   CHECK(compare(plane, mended).folded_faces == 0);
   CHECK(mended.n_vertices() == 5);
   double area = 0;
@@ -66,12 +66,39 @@ TEST_CASE("a fold that stays wherever its corners go is parted anew", "[unfold]"
   CHECK(area == Approx(1 - 0.5 * 0.7));
 }
 
+TEST_CASE("folds that were there before the fit are no reason to keep any", "[unfold]") {
+  auto plane = make_shape("plane", {900, false});
+  const SurfaceRef surface = plane;
+  const std::vector<Vec3d> places{
+      {-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {0, -0.2, 0}, {-0.5, 0.5, 0}};
+  const PolyMesh folded = result_on(surface, places, {{0, 1, 2, 4}, {2, 3, 4}});
+  std::vector<PolyMesh> candidates{folded, folded};
+  const int taken = detail::choose_unfolded(surface, candidates);
+  CHECK(compare(plane, candidates[static_cast<size_t>(taken)]).folded_faces == 0);
+}
+
 TEST_CASE("without folds the last candidate is taken as it is", "[unfold]") {
   auto plane = make_shape("plane", {900, false});
   const SurfaceRef surface = plane;
   const std::vector<Vec3d> places{{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}};
   const PolyMesh quad = result_on(surface, places, {{0, 1, 2, 3}});
   std::vector<PolyMesh> candidates{quad, result_on(surface, places, {{0, 1, 2}, {0, 2, 3}})};
-  CHECK(detail::choose_unfolded(surface, quad, candidates) == 1);
+  CHECK(detail::choose_unfolded(surface, candidates) == 1);
   CHECK(candidates[1].n_faces() == 2);
+}
+
+TEST_CASE("a concave quad is parted in two, where concave ones were not asked for", "[unfold]") {
+  auto plane = make_shape("plane", {900, false});
+  const SurfaceRef surface = plane;
+  const std::vector<Vec3d> places{{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {-0.2, -0.2, 0}, {-0.5, 0.5, 0}};
+  const PolyMesh triangles = result_on(surface, places, {{0, 1, 2}, {0, 2, 3}});
+  PolyMesh quad = result_on(surface, places, {{0, 1, 2, 3}});
+  REQUIRE(compare(plane, quad).concave_faces == 1);
+  std::vector<PolyMesh> candidates{triangles, quad};
+  CHECK(detail::choose_unfolded(surface, candidates) == 1);
+  CHECK(candidates[1].n_faces() == 2);
+  CHECK(compare(plane, candidates[1]).concave_faces == 0);
+  std::vector<PolyMesh> asked_for{quad, quad};
+  CHECK(detail::choose_unfolded(surface, asked_for) == 1);
+  CHECK(asked_for[1].n_faces() == 1);
 }

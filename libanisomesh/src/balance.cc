@@ -139,13 +139,12 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     report.split = split_bent_quads(*state, input, options.split_gain, options.least_quads, mesh);
     if (report.split > 0) work = mesh.mesh();
   }
-  std::vector<OpenMesh::PolyMesh> candidates;
+  std::vector<OpenMesh::PolyMesh> candidates{result};
   if (change) candidates.push_back(std::move(fitted));
   if (!worse) candidates.push_back(std::move(work));
-  const int taken = detail::choose_unfolded(surface, result, candidates);
-  if (taken + 1 < static_cast<int>(candidates.size()))
-    report.fit.rms_after = taken < 0 ? report.fit.rms_before : rms_fitted;
-  if (taken >= 0) result = std::move(candidates[static_cast<size_t>(taken)]);
+  const auto taken = static_cast<size_t>(detail::choose_unfolded(surface, candidates));
+  if (taken + 1 < candidates.size()) report.fit.rms_after = taken == 0 ? report.fit.rms_before : rms_fitted;
+  result = std::move(candidates[taken]);
   report.fit.seconds = report.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

@@ -69,20 +69,17 @@ std::vector<InnerEdge> inner_edges(const PolygonSoup& result) {
   return edges;
 }
 
-bool is_degenerate(const PolygonSoup& result, size_t face) {
-  return !(2 * result.areas[face] > 1e-6 * result.diameters[face] * result.diameters[face]);
-}
-
 }  // namespace
 
 std::vector<char> folded_faces(const ReferenceSurface& reference, const PolygonSoup& result) {
   std::vector<char> folded(result.faces.size(), 0);
+  const std::vector<char> degenerate = degenerate_faces(result);
   tbb::parallel_for(size_t{0}, result.faces.size(), [&](size_t face) {
-    folded[face] = !is_degenerate(result, face) && is_turned_over(reference, result, face) ? 1 : 0;
+    folded[face] = !degenerate[face] && is_turned_over(reference, result, face) ? 1 : 0;
   });
   for (const InnerEdge& edge : inner_edges(result)) {
     const auto left = static_cast<size_t>(edge.left), right = static_cast<size_t>(edge.right);
-    if (is_degenerate(result, left) || is_degenerate(result, right)) continue;
+    if (degenerate[left] || degenerate[right]) continue;
     if (dot(result.normals[left], result.normals[right]) > folded_cosine) continue;
     const Vec3d middle =
         0.5 * (result.points[static_cast<size_t>(edge.from)] + result.points[static_cast<size_t>(edge.to)]);

@@ -46,6 +46,11 @@ std::vector<int> merge_by_place(const std::vector<Vec3d>& points);
 
 /// Whether each face is turned over against the reference, or lies folded onto its neighbour.
 std::vector<char> folded_faces(const ReferenceSurface& reference, const PolygonSoup& result);
+/// Whether each face has no area to speak of.
+std::vector<char> degenerate_faces(const PolygonSoup& result);
+/// Whether each face that has an area turns back at a corner by more than 5 degrees, in its plane of best
+/// fit.
+std::vector<char> concave_faces(const PolygonSoup& result);
 
 // Each part fills its own fields of the comparison.
 void measure_distances(const ReferenceSurface& reference, const PolygonSoup& result,

@@ -75,6 +75,12 @@ bool is_concave(const std::vector<Vec3d>& corners, const Vec3d& normal) {
   return turns > 3 * pi;  // a star polygon turns left at every corner, but more than once around
 }
 
+std::vector<Vec3d> corners_of(const PolygonSoup& result, size_t face) {
+  std::vector<Vec3d> corners;
+  for (const int v : result.faces[face]) corners.push_back(result.points[static_cast<size_t>(v)]);
+  return corners;
+}
+
 }  // namespace
 
 std::vector<Triangle> triangulate_polygon(const std::vector<Vec3d>& corners, const Vec3d& normal,
@@ -131,28 +137,39 @@ PolygonSoup::PolygonSoup(const OpenMesh::PolyMesh& mesh, FaceDiagonal diagonal) 
   first_triangle.push_back(static_cast<int>(triangles.size()));
 }
 
+std::vector<char> degenerate_faces(const PolygonSoup& result) {
+  std::vector<char> degenerate(result.faces.size());
+  for (size_t f = 0; f < degenerate.size(); ++f)
+    degenerate[f] = !(2 * result.areas[f] > degenerate_height * result.diameters[f] * result.diameters[f]);
+  return degenerate;
+}
+
+std::vector<char> concave_faces(const PolygonSoup& result) {
+  std::vector<char> concave = degenerate_faces(result);
+  for (size_t f = 0; f < concave.size(); ++f)
+    concave[f] = !concave[f] && is_concave(corners_of(result, f), result.normals[f]);
+  return concave;
+}
+
 void measure_faces(const PolygonSoup& result, Comparison& comparison) {
+  const auto count = [](const std::vector<char>& faces) {
+    return static_cast<size_t>(std::count(faces.begin(), faces.end(), 1));
+  };
+  const auto degenerate = degenerate_faces(result);
+  comparison.degenerate_faces = count(degenerate);
+  comparison.concave_faces = count(concave_faces(result));
   double planarity = 0;
-  std::vector<Vec3d> corners;
   for (size_t f = 0; f < result.faces.size(); ++f) {
-    corners.clear();
+    ++comparison.faces_by_degree[static_cast<int>(result.faces[f].size())];
+    if (degenerate[f]) continue;
+    const auto corners = corners_of(result, f);
     Vec3d centre(0, 0, 0);
-    for (const int corner : result.faces[f]) {
-      corners.push_back(result.points[static_cast<size_t>(corner)]);
-      centre += corners.back() / static_cast<double>(result.faces[f].size());
-    }
-    ++comparison.faces_by_degree[static_cast<int>(corners.size())];
-    const double diameter = result.diameters[f];
-    if (!(2 * result.areas[f] > degenerate_height * diameter * diameter)) {
-      ++comparison.degenerate_faces;
-      continue;
-    }
+    for (const Vec3d& corner : corners) centre += corner / static_cast<double>(corners.size());
     double off = 0;
     for (const Vec3d& corner : corners)
       off = std::max(off, std::abs(dot(corner - centre, result.normals[f])));
-    planarity += off / diameter;
-    comparison.max_planarity = std::max(comparison.max_planarity, off / diameter);
-    if (is_concave(corners, result.normals[f])) ++comparison.concave_faces;
+    planarity += off / result.diameters[f];
+    comparison.max_planarity = std::max(comparison.max_planarity, off / result.diameters[f]);
   }
   comparison.faces = result.faces.size();
   const size_t proper = comparison.faces - comparison.degenerate_faces;

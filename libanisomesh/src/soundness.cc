@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "anisomesh/errors.hh"
+#include "compare_parts.hh"
 #include "conforming.hh"
 #include "fold_limits.hh"
 #include "numerics/bvh.hh"
@@ -162,16 +163,18 @@ bool Soundness::is_folded(const Polygon& polygon, const NetworkGraph& network, c
                                        {1.0 / 6, 2.0 / 3, 1.0 / 6},
                                        {1.0 / 6, 1.0 / 6, 2.0 / 3}};
   int against = 0, samples = 0;
-  for (size_t i = 1; i + 1 < polygon.size(); ++i) {
-    const Vec2d &a = network.graph.uv(polygon[0]), &b = network.graph.uv(polygon[i]),
-                &c = network.graph.uv(polygon[i + 1]);
+  // The ruler's triangles: a bent quad may be right on those of the one diagonal only.
+  const auto triangles = triangulate_polygon(positions_of(polygon, network), normal, FaceDiagonal::shorter);
+  for (const Triangle& corner : triangles) {
+    const auto mean = [&](const auto& of, const double* w) {
+      return w[0] * of(polygon[at(corner[0])]) + w[1] * of(polygon[at(corner[1])]) +
+             w[2] * of(polygon[at(corner[2])]);
+    };
     for (const auto& w : weights) {
       ++samples;
-      const Vec3d place = w[0] * network.positions[at(polygon[0])] +
-                          w[1] * network.positions[at(polygon[i])] +
-                          w[2] * network.positions[at(polygon[i + 1])];
-      against += is_against(w[0] * a + w[1] * b + w[2] * c, network.points[at(polygon[0])].face, place,
-                            normal, diameter_of(polygon, network));
+      against += is_against(
+          mean([&](int n) { return network.graph.uv(n); }, w), network.points[at(polygon[0])].face,
+          mean([&](int n) { return network.positions[at(n)]; }, w), normal, diameter_of(polygon, network));
     }
   }
   return 2 * against > samples;
@@ -213,7 +216,8 @@ std::vector<int> Soundness::unsound(const std::vector<Polygon>& polygons, const 
              (or_touching &&
               ((polygons[p].size() > 3 && PolygonJudge::touches_itself(positions_of(polygons[p], network))) ||
                coincident_.has_one(polygons[p], network)));
-  const PolygonAdjacency adjacency = adjacency_of(polygons, network);
+  // A polygon may lie folded onto one beyond a feature, too.
+  const PolygonAdjacency adjacency(polygons, network.graph.n_nodes(), [](int, int) { return true; });
   for (size_t p = 0; p < polygons.size(); ++p)
     for (size_t i = 0; i < polygons[p].size(); ++i) {
       const int q = adjacency.neighbor(static_cast<int>(p), i);
