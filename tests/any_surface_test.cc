@@ -366,6 +366,31 @@ TEST_CASE("a sample that turns a triangle over beside a hole is not taken a seco
   check_sound(compared(mesh, result));
 }
 
+TEST_CASE("one sliver along a side is no reason to halve the tolerances of a whole part", "[any_surface]") {
+  const auto path = demo_mesh("anchor_dense.off");
+  if (!path) return;
+  auto mesh = read_surface(*path);
+  tag_features(mesh);
+  estimate_curvature(mesh);
+  choose_domain(mesh, Domain::surface);
+  smooth_tensors(mesh);
+  find_umbilics(mesh);
+  // Two thirds more where a triangle of a quarter of the diagonal was met, and none by a thousandth beside.
+  std::vector<double> faces;
+  for (const double epsilon : {1.2e-4, 1.4e-4}) {
+    TraceOptions trace;
+    trace.density.epsilon_fraction = epsilon;
+    trace.seed_fraction = 0.8;
+    trace.relax_passes = 0;
+    MeshOptions polygons;
+    polygons.cell_tolerance = 4;
+    polygons.for_fit = true;
+    faces.push_back(static_cast<double>(trace_and_mesh(mesh, trace, polygons).n_faces()));
+  }
+  CHECK(faces[0] < 1.25 * faces[1]);
+  CHECK(faces[0] > faces[1]);
+}
+
 TEST_CASE("a cancel is heard while the surface is coarsened under the lines", "[any_surface]") {
   auto mesh = shape("torus", 6000);
   estimate_curvature(mesh);

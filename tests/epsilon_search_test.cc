@@ -191,6 +191,17 @@ TEST_CASE("a count that no epsilon brings down ends the search with the finer re
   CHECK_FALSE(found.met);
 }
 
+TEST_CASE("a bump in the count near the target does not end the search", "[epsilon_search]") {
+  MadeUp made;  // as cheese's: 2,313 and 2,308 faces for 2,000, and fewer beyond
+  made.count = [](double epsilon) {
+    return epsilon < 0.0021 ? 1160 : 1155 * std::pow(0.0021 / epsilon, 0.5);
+  };
+  const auto found = made.search(1000);
+  REQUIRE(found.tried.size() > 2);
+  CHECK(found.tried[1].count > 1150);
+  CHECK(found.met);
+}
+
 TEST_CASE("the search ends with what else goes wrong at once", "[epsilon_search]") {
   MadeUp made;
   made.refused = [](double, size_t) -> bool { throw Cancelled(); };

@@ -22,6 +22,9 @@ constexpr double kSame = 1e-3;  ///< logarithm: an epsilon so near to another on
 /// A count that falls by a smaller power of epsilon is not the density's any more: features, the border or
 /// what the tolerances ask for need as many, and a larger epsilon only spoils what is there.
 constexpr double kStalled = 0.2;
+/// But one step may also have met a bump in the count: so near to the target, a longer one shows which it is.
+constexpr double kNearTarget = 0.5;  ///< logarithm
+constexpr double kLongStep = 2;
 constexpr double kLowest = 1e-8, kHighest = 0.5;  ///< epsilon, fraction of the diagonal
 
 /// The epsilon for which the density asks for so many crossings.
@@ -153,6 +156,7 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
   std::vector<Trial> trials;
   std::vector<double> refused;
   double best_off = std::numeric_limits<double>::infinity();
+  int stalls = 0;
   double epsilon = epsilon_of(wanted / kFirstRatio, search.crossings);
   for (;;) {
     const bool is_last = ++found.attempts >= options.max_attempts;
@@ -176,10 +180,13 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
       search.keep();
     }
     epsilon = next_epsilon(trials, search.crossings);
+    const bool looks_farther = stalled && ++stalls == 1 && trials.back().log_ratio < kNearTarget;
+    if (looks_farther) epsilon = std::min(kHighest, kLongStep * std::exp(trials.back().log_epsilon));
     while (is_refused(epsilon, refused) && !is_tried(epsilon, trials))
       epsilon = after_refusal(epsilon, trials);
     const bool stuck = is_tried(epsilon, trials);
-    if (met || is_last || stuck || stalled || (found.attempts >= 3 && best_off <= kMet)) break;
+    if (met || is_last || stuck || (stalled && !looks_farther) || (found.attempts >= 3 && best_off <= kMet))
+      break;
   }
   if (!std::isfinite(best_off)) best_off = make_at_any_count(trials, refused, wanted, search, found).off();
   found.met = best_off <= kMet;

@@ -12,6 +12,7 @@
 #include "drawing.hh"
 #include "feature_tolerance.hh"
 #include "joining.hh"
+#include "numerics/bvh.hh"
 #include "polygon_attempt.hh"
 #include "polygon_output.hh"
 #include "polygons.hh"
@@ -65,25 +66,56 @@ constexpr size_t max_retries = 8;
 constexpr size_t patience = 4;           // retries, before vertices are given up for sound polygons
 constexpr double cells_at_features = 5;  // times the tolerance of features
 constexpr double tiny = 0.05;            // of epsilon: no edge need be as short
-constexpr double around = 1.5;           // diameters of such a polygon
+constexpr double around = 1.5;           // such a polygon: times its width
+
+// What is around a polygon: as far from it as it is wide, but for slivers, so that one along a whole side of
+// a part does not concern all of it; these farther each time they are met.
+class Surroundings {
+ public:
+  Surroundings(const std::vector<int>& polygon, const NetworkGraph& network, double least_reach) {
+    for (const int n : polygon) corners_.push_back(network.positions[at(n)]);
+    for (const Vec3d& p : corners_) middle_ += p / static_cast<double>(corners_.size());
+    double diameter = 0;
+    Vec3d area(0, 0, 0);
+    for (size_t i = 0; i < corners_.size(); ++i) {
+      radius_ = std::max(radius_, (corners_[i] - middle_).norm());
+      if (i > 1) area += cross(corners_[i - 1] - corners_[0], corners_[i] - corners_[0]);
+      for (size_t k = 0; k < i; ++k) diameter = std::max(diameter, (corners_[i] - corners_[k]).norm());
+    }
+    if (diameter > 0)
+      reach_ = around * std::min(diameter, std::max(area.norm() / diameter, least_reach * diameter));
+  }
+
+  bool include(const Vec3d& place) const {
+    if ((place - middle_).norm() > radius_ + reach_) return false;
+    for (size_t i = 1; i + 1 < corners_.size(); ++i) {
+      const Vec3d &a = corners_[0], &b = corners_[i], &c = corners_[i + 1];
+      const Vec3d w = detail::closest_barycentric(place, a, b, c);
+      if ((w[0] * a + w[1] * b + w[2] * c - place).norm() <= reach_) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::vector<Vec3d> corners_;
+  Vec3d middle_{0, 0, 0};
+  double radius_ = 0, reach_ = 0;
+};
 
 // Halves the share of the tolerances that holds near some polygons. Isotropic samples that no tolerance moves
 // need not stay any longer.
 void take_more_care(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
-                    bool give_up_samples, NetworkGraph& start) {
-  if (give_up_samples)
+                    size_t retries, NetworkGraph& start) {
+  if (retries >= patience)
     for (const auto& polygon : polygons)
       for (const int n : polygon)
         if (at(n) < start.fixed.size() && start.origins[at(n)] == Origin::isotropic) start.fixed[at(n)] = 0;
   if (start.share.empty()) start.share.assign(start.positions.size(), 1);
   std::vector<char> near(start.share.size(), 0);
+  const double least_reach = std::ldexp(1.0, static_cast<int>(retries) - static_cast<int>(patience));
   for (const auto& polygon : polygons) {
-    Vec3d middle(0, 0, 0);
-    for (const int n : polygon) middle += network.positions[at(n)] / static_cast<double>(polygon.size());
-    double radius = 0;
-    for (const int n : polygon)
-      radius = std::max(radius, 2 * around * (network.positions[at(n)] - middle).norm());
-    for (size_t n = 0; n < near.size(); ++n) near[n] |= (start.positions[n] - middle).norm() <= radius;
+    const Surroundings surroundings(polygon, network, least_reach);
+    for (size_t n = 0; n < near.size(); ++n) near[n] |= surroundings.include(start.positions[n]);
   }
   for (size_t n = 0; n < near.size(); ++n)
     if (near[n]) start.share[n] /= 2;
@@ -211,7 +243,7 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
     }
     ++local.retries;
     if (local.retries > max_retries) refuse(unsound.front(), network, unsound.size(), surface);
-    take_more_care(unsound, network, local.retries >= patience, start);
+    take_more_care(unsound, network, local.retries, start);
   }
   PolygonAttempt done{detail::make_mesh(network, polygons), true};
   local.polygon_seconds += stopwatch.lap();

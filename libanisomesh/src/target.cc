@@ -28,7 +28,9 @@ constexpr double kForFit = 0.765, kFacesForFit = 0.84;
 /// Off by so much, the balance that follows a fit makes up for it: better by adding vertices, which go to
 /// where the error is largest, than by taking them out, which costs quads.
 constexpr double kEnoughBelow = 0.08, kEnoughAbove = 0.07;
-/// It makes quads of triangles too, until there are hardly more faces than this for each vertex.
+/// It makes quads of triangles too, until there are hardly more faces than this for each vertex; on a closed
+/// surface of quads alone there is one for each, and one more for each below zero of the Euler
+/// characteristic.
 constexpr double kFacesLeft = 1.1;
 
 /// The number of crossings that the density asks for: one for each rectangle of the two spacings.
@@ -130,9 +132,12 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   if (wanted > 0 && polygons.cell_tolerance == 0) polygons.cell_tolerance = kCellTolerance;
   TraceAndMeshReport done;
   const bool balanced = mesh.for_fit && (mesh.max_degree == 3 || mesh.max_degree == 4);
+  auto& connectivity = surface.connectivity();
+  const double euler = static_cast<double>(connectivity.n_vertices() + connectivity.n_faces()) -
+                       static_cast<double>(connectivity.n_edges());
   const auto count_of = [&](size_t vertices, size_t faces) {
     if (target.target_faces == 0) return vertices;
-    const double left = kFacesLeft * static_cast<double>(vertices);
+    const double left = kFacesLeft * std::max(0.0, static_cast<double>(vertices) - euler);
     return balanced && mesh.max_degree == 4 ? std::min(faces, static_cast<size_t>(left)) : faces;
   };
   // With `any` count, or only one that is near the target, worth being made sound.
@@ -143,7 +148,6 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
                                              sub_progress(progress, from + 0.5 * span, from + 0.6 * span));
     done.epsilon_fraction = options.density.epsilon_fraction;
     if (wanted > 0) {  // for a build_polygons() to come
-      auto& connectivity = surface.connectivity();
       connectivity.property(provide_property(connectivity, property::cell_tolerance)) =
           polygons.cell_tolerance;
     }
@@ -197,7 +201,6 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     surface.connectivity().property(epsilon) = done.epsilon_fraction * surface.diagonal();
   }
   if (balanced && found.met) {  // what is farther off stays so: features, say, ask for as many
-    auto& connectivity = surface.connectivity();
     const auto leave = [&](const auto& declaration, size_t count) {
       connectivity.property(provide_property(connectivity, declaration)) = static_cast<int>(count);
     };
