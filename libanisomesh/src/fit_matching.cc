@@ -159,11 +159,11 @@ std::vector<int> FitMatching::place_samples(const std::vector<int>& polygon, siz
 // Goes from polygon to polygon as long as there is a nearer one that faces the same way.
 bool FitMatching::nearest(const Vec3d& place, const Vec3d& normal, const FitTriangles& triangles,
                           const std::vector<Vec3d>& points, int& polygon, FitPair& pair) const {
-  double best = std::numeric_limits<double>::infinity();
+  double best = std::numeric_limits<double>::infinity(), reach = best;
   int found = polygon;
   const auto look = [&](int p, bool any_side) {
-    const double away = (place - triangles.centre[at(p)]).norm() - triangles.radius[at(p)];
-    if (away > 0 && away * away >= best) return;
+    const double within = reach + triangles.radius[at(p)];
+    if ((place - triangles.centre[at(p)]).sqrnorm() >= within * within) return;
     for (int t = triangles.first[at(p)]; t < triangles.first[at(p) + 1]; ++t) {
       if (!any_side && !((triangles.normal[at(t)] | normal) > 0)) continue;
       const Triangle& corner = triangles.corner[at(t)];
@@ -172,6 +172,7 @@ bool FitMatching::nearest(const Vec3d& place, const Vec3d& normal, const FitTria
       const double squared = (w[0] * a + w[1] * b + w[2] * c - place).sqrnorm();
       if (!is_nearer(squared, best, triangles.radius[at(p)])) continue;
       best = squared;
+      reach = std::sqrt(best);
       found = p;
       pair.triangle = t;
       pair.barycentric = w;

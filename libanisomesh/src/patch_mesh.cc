@@ -45,8 +45,12 @@ PatchMesh::PatchMesh(const OpenMesh::PolyMesh& mesh) : vertices_(mesh.n_vertices
   }
 }
 
+bool PatchMesh::is_on_curve(int v, int w) const {
+  return vertices_[at(v)].on_curve && vertices_[at(w)].on_curve && curve_.count(key(v, w)) > 0;
+}
+
 int PatchMesh::across(int v, int w) const {
-  if (curve_.count(key(v, w)) > 0) return -1;
+  if (is_on_curve(v, w)) return -1;
   for (const int p : vertices_[at(w)].polygons) {
     const auto& polygon = polygons_[at(p)];
     for (size_t i = 0; i < polygon.size(); ++i)
@@ -76,14 +80,15 @@ PatchMesh::Patch PatchMesh::join(const std::vector<int>& polygons) const { retur
 
 PatchMesh::Patch PatchMesh::with_ring(std::vector<int> polygons) const {
   Patch patch{std::move(polygons), {}};
-  std::vector<std::pair<int, int>> sides;
+  std::vector<std::pair<int, int>> all, sides;
   for (const int p : patch.polygons) {
     const auto& polygon = polygons_[at(p)];
-    for (size_t i = 0; i < polygon.size(); ++i) {
-      const int v = polygon[i], w = polygon[(i + 1) % polygon.size()], q = across(v, w);
-      if (q < 0 || !contains(patch.polygons, q)) sides.emplace_back(v, w);
-    }
+    for (size_t i = 0; i < polygon.size(); ++i)
+      all.emplace_back(polygon[i], polygon[(i + 1) % polygon.size()]);
   }
+  for (const auto& [v, w] : all)
+    if (is_on_curve(v, w) || std::find(all.begin(), all.end(), std::make_pair(w, v)) == all.end())
+      sides.emplace_back(v, w);
   if (sides.empty()) return patch;
   std::sort(sides.begin(), sides.end());
   std::vector<int> ring;

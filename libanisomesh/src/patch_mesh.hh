@@ -65,6 +65,7 @@ class PatchMesh {
   /// Edges at v that belong to no polygon of the patch.
   int edges_outside(const Patch& patch, int v) const;
   Patch with_ring(std::vector<int> polygons) const;
+  bool is_on_curve(int v, int w) const;
 
   std::vector<Vertex> vertices_;
   std::vector<std::vector<int>> polygons_;  // empty: taken out

@@ -3,9 +3,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "fit_guard.hh"
@@ -22,6 +24,7 @@ constexpr double tried_removals = 0.3;  // of all vertices, those that seem chea
 constexpr double worth_adding = 2;      // mean errors: there a vertex may be added
 constexpr double worth_adding_where_lacking = 1.2;
 constexpr double lying_across = 0.3;  // mean errors: a side that costs more for how it lies is looked at
+constexpr double least_gain = 0.05;   // mean errors, of a repartition
 constexpr double hanging = 3;         // times the error of the input beside it, or the mean one
 
 // Of moves that gain the same but for rounding, as one quad parted alone or with what stays beside it, the
@@ -188,6 +191,34 @@ void PatchMoves::sort_samples(const std::vector<int>& polygon_of) {
   std::vector<int> next(first_sample_.begin(), first_sample_.end() - 1);
   for (size_t i = 0; i < pairs.size(); ++i)
     if (counts(i)) sample_[at(next[polygon(i)]++)] = static_cast<int>(i);
+  placed_.resize(sample_.size());
+  normal_.assign(n, Vec3d(0, 0, 0));
+  if (!input_.tensor.empty()) tensor_.assign(n, Vec6d(0.0));
+  tbb::parallel_for(size_t{0}, n, [&](size_t p) {
+    for (size_t i = at(first_sample_[p]); i < at(first_sample_[p + 1]); ++i) {
+      const Sample sample = sample_of(sample_[i]);
+      placed_[i] = {sample.place, sample.weight};
+      normal_[p] += sample.weight * input_.normal[at(sample.face)];
+      if (!tensor_.empty()) tensor_[p] += sample.weight * input_.tensor[at(sample.face)];
+    }
+  });
+}
+
+// Unit, or zero. What stands beside a polygon that hangs faces all ways: the border of the patch knows
+// better.
+Vec3d PatchMoves::normal_of(const std::vector<int>& polygons, const std::vector<Vec3d>& ring) const {
+  if (std::any_of(polygons.begin(), polygons.end(), [&](int p) { return hangs_[at(p)]; }))
+    return unit(area_of(ring));
+  Vec3d sum(0, 0, 0);
+  for (const int p : polygons) sum += normal_[at(p)];
+  return unit(sum);
+}
+
+Vec6d PatchMoves::tensor_of(const std::vector<int>& polygons) const {
+  Vec6d sum(0.0);
+  if (!tensor_.empty())
+    for (const int p : polygons) sum += tensor_[at(p)];
+  return sum;
 }
 
 PatchMoves::Situation PatchMoves::look_at(const PatchMesh& mesh, const PatchMesh::Patch& patch) const {
@@ -198,21 +229,14 @@ PatchMoves::Situation PatchMoves::look_at(const PatchMesh& mesh, const PatchMesh
     s.error += error_[at(p)];
     s.worst = std::max(s.worst, worst_[at(p)]);
     if (mesh.polygons()[at(p)].size() == 3) s.costs += costs_.triangle;
-    for (int i = first_sample_[at(p)]; i < first_sample_[at(p) + 1]; ++i) {
-      const Sample sample = sample_of(sample_[at(i)]);
-      s.samples.push_back({sample.place, sample.weight});
-      s.numbers.push_back(sample_[at(i)]);
-      s.normal += sample.weight * input_.normal[at(sample.face)];
-      if (!input_.tensor.empty()) s.tensor += sample.weight * input_.tensor[at(sample.face)];
-    }
+    const auto first = first_sample_[at(p)], end = first_sample_[at(p) + 1];
+    s.samples.insert(s.samples.end(), placed_.begin() + first, placed_.begin() + end);
+    s.numbers.insert(s.numbers.end(), sample_.begin() + first, sample_.begin() + end);
   }
   for (const int v : patch.ring) s.ring.push_back(mesh.point(v));
-  // What stands beside a polygon that hangs faces all ways: the border of the patch knows better.
-  if (std::any_of(patch.polygons.begin(), patch.polygons.end(), [&](int p) { return hangs_[at(p)]; }))
-    s.normal = area_of(s.ring);
-  const double length = s.normal.norm();
-  if (!(length > 0)) return s;
-  s.normal /= length;
+  s.normal = normal_of(patch.polygons, s.ring);
+  if (!(s.normal.sqrnorm() > 0)) return s;
+  s.tensor = tensor_of(patch.polygons);
   s.forbidden = mesh.forbidden_chords(patch);
   s.possible = true;
   return s;
@@ -226,10 +250,12 @@ PatchMove PatchMoves::partition(const PatchMesh& mesh, const PatchMesh::Patch& p
   PatchCosts costs = costs_;
   if (keeps_vertices) costs.limit = std::max(costs.limit, s.worst);
   const PatchView view(s.normal, s.samples, s.tensor, costs);
+  const double now = s.error + s.costs + inner_chords(mesh, patch, view);
   PatchPieces found = partition_ring(view, s.ring, s.forbidden);
   if (!std::isfinite(found.cost)) return move;
   move.patch = patch;
-  move.gain = s.error + s.costs + inner_chords(mesh, patch, view) - found.cost;
+  move.gain = now - found.cost;
+  if (keeps_vertices && !(move.gain > least_gain * mean_error_)) return move;
   for (auto& piece : found.pieces) {
     for (int& i : piece) i = patch.ring[at(i)];
     move.pieces.push_back(std::move(piece));
@@ -275,50 +301,58 @@ PatchMove PatchMoves::addition(const PatchMesh& mesh, const PatchMesh::Patch& pa
   return move;
 }
 
+// Whether the sides inside a patch lie diagonally to the principal directions.
 bool PatchMoves::is_across(const PatchMesh& mesh, const PatchMesh::Patch& patch) const {
-  const Situation s = look_at(mesh, patch);
-  return s.possible &&
-         inner_chords(mesh, patch, PatchView(s.normal, {}, s.tensor, costs_)) > lying_across * mean_error_;
+  if (patch.ring.size() < 3 || patch.ring.size() > most_corners) return false;
+  std::vector<Vec3d> ring;
+  for (const int v : patch.ring) ring.push_back(mesh.point(v));
+  const Vec3d normal = normal_of(patch.polygons, ring);
+  if (!(normal.sqrnorm() > 0)) return false;
+  const PatchView view(normal, {}, tensor_of(patch.polygons), costs_);
+  return inner_chords(mesh, patch, view) > lying_across * mean_error_;
 }
 
-// Neighbours that are far off, or triangles, or on both sides of an edge that lies diagonally to the
-// principal directions; these also with each polygon beside them, as often it takes another to lay the edge
-// better.
-std::vector<PatchMove> PatchMoves::of_neighbours(const PatchMesh& mesh, int p, int q) const {
-  std::vector<PatchMove> moves;
-  const auto& polygons = mesh.polygons();
-  const PatchMesh::Patch both = mesh.join({p, q});
-  const bool across = is_across(mesh, both), triangles = polygons[at(p)].size() + polygons[at(q)].size() == 6;
-  if (across || triangles || error_[at(p)] + error_[at(q)] > 2 * worth_a_look * mean_error_)
-    moves.push_back(partition(mesh, both, true));
-  if (across)
-    for (const auto& [one, other] : {std::pair(p, q), std::pair(q, p)})
-      for (const int beside : mesh.around(one))
-        if (beside != other) moves.push_back(partition(mesh, mesh.join({p, q, beside}), true));
+// Those that gain, in the order of the groups.
+std::vector<PatchMove> PatchMoves::partitions(const PatchMesh& mesh,
+                                              const std::vector<std::vector<int>>& groups) const {
+  std::vector<PatchMove> moves(groups.size());
+  tbb::parallel_for(size_t{0}, groups.size(), [&](size_t i) {
+    PatchMove move = partition(mesh, mesh.join(groups[i]), true);
+    if (move.gain > least_gain * mean_error_) moves[i] = std::move(move);
+  });
   return moves;
 }
 
+// Single polygons; neighbours that are far off, or triangles, or on both sides of an edge that lies
+// diagonally to the principal directions; these also with each polygon beside them, as often it takes another
+// to lay the edge better.
 std::vector<PatchMove> PatchMoves::repartitions(const PatchMesh& mesh) const {
-  std::vector<std::vector<int>> groups;
+  std::vector<std::vector<int>> groups, pairs;
   for (size_t p = 0; p < error_.size(); ++p) {
     if (mesh.polygons()[p].size() > 3 && error_[p] > worth_a_look * mean_error_)
       groups.push_back({static_cast<int>(p)});
     for (const int q : mesh.around(static_cast<int>(p)))
-      if (q > static_cast<int>(p)) groups.push_back({static_cast<int>(p), q});
+      if (q > static_cast<int>(p)) pairs.push_back({static_cast<int>(p), q});
     if (hangs_[p]) add_threes(mesh, static_cast<int>(p), groups);
   }
-  std::vector<std::vector<PatchMove>> found(groups.size());
-  tbb::parallel_for(size_t{0}, groups.size(), [&](size_t i) {
-    const auto& group = groups[i];
-    if (group.size() == 2)
-      found[i] = of_neighbours(mesh, group[0], group[1]);
-    else
-      found[i].push_back(partition(mesh, mesh.join(group), true));
-  });
-  std::vector<PatchMove> moves;
-  for (auto& of_group : found)
-    for (PatchMove& move : of_group)
-      if (move.gain > 0.05 * mean_error_) moves.push_back(std::move(move));
+  std::vector<char> across(pairs.size(), 0);
+  tbb::parallel_for(size_t{0}, pairs.size(),
+                    [&](size_t i) { across[i] = is_across(mesh, mesh.join(pairs[i])); });
+  std::set<std::array<int, 3>> threes;  // each once, whichever of its sides lie across
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const int p = pairs[i][0], q = pairs[i][1];
+    const bool triangles = mesh.polygons()[at(p)].size() + mesh.polygons()[at(q)].size() == 6;
+    if (across[i] || triangles || error_[at(p)] + error_[at(q)] > 2 * worth_a_look * mean_error_)
+      groups.push_back(pairs[i]);
+    if (!across[i]) continue;
+    for (const auto& [one, other] : {std::pair(p, q), std::pair(q, p)})
+      for (const int beside : mesh.around(one)) {
+        std::array<int, 3> three{p, q, beside};
+        std::sort(three.begin(), three.end());
+        if (beside != other && threes.insert(three).second) groups.push_back({p, q, beside});
+      }
+  }
+  auto moves = partitions(mesh, groups);
   sort_by_gain(moves);
   return moves;
 }

@@ -45,10 +45,12 @@ class PatchMoves {
   Sample sample_of(int pair) const;
   void sort_samples(const std::vector<int>& polygon_of);
   Situation look_at(const PatchMesh& mesh, const PatchMesh::Patch& patch) const;
+  Vec3d normal_of(const std::vector<int>& polygons, const std::vector<Vec3d>& ring) const;
+  Vec6d tensor_of(const std::vector<int>& polygons) const;
   double guess(const PatchMesh& mesh, const PatchMesh::Patch& star, int vertex) const;
   PatchMove partition(const PatchMesh& mesh, const PatchMesh::Patch& patch, bool keeps_vertices) const;
   bool is_across(const PatchMesh& mesh, const PatchMesh::Patch& patch) const;
-  std::vector<PatchMove> of_neighbours(const PatchMesh& mesh, int p, int q) const;
+  std::vector<PatchMove> partitions(const PatchMesh& mesh, const std::vector<std::vector<int>>& groups) const;
   std::vector<PatchMove> additions_to(const PatchMesh& mesh, const std::vector<char>& wanted,
                                       double least_gain) const;
   PatchMove addition(const PatchMesh& mesh, const PatchMesh::Patch& patch) const;
@@ -58,10 +60,14 @@ class PatchMoves {
   const FitState& fit_;
   PatchCosts costs_;
   double mean_error_ = 0;
-  std::vector<double> worst_;               // largest distance of a sample on each polygon
-  std::vector<double> error_;               // of each polygon
-  std::vector<char> hangs_;                 // in the air
-  std::vector<int> first_sample_, sample_;  // of the input, for each polygon: indices of pairs
+  std::vector<double> worst_;  // largest distance of a sample on each polygon
+  std::vector<double> error_;  // of each polygon
+  std::vector<char> hangs_;    // in the air
+  // What stands beside each polygon: indices of pairs, and where on the input that is.
+  std::vector<int> first_sample_, sample_;
+  std::vector<PatchSample> placed_;
+  std::vector<Vec3d> normal_;  // sums by weight
+  std::vector<Vec6d> tensor_;  // empty where none is known
 };
 
 /// Applies moves as long as none concerns polygons that another has changed.

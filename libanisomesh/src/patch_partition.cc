@@ -34,15 +34,18 @@ PatchView::PatchView(const Vec3d& normal, std::vector<PatchSample> samples, cons
   for (const PatchSample& s : samples_) places_.push_back(seen(s.place));
 }
 
-double PatchView::triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
+Vec3d PatchView::fair_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
   const Vec3d n = cross(b - a, c - a);
   const double twice = n.norm();
   const double longest = std::max({(b - a).sqrnorm(), (c - b).sqrnorm(), (a - c).sqrnorm()});
-  if (!(twice > least_fullness * longest) || !((n | normal_) > least_cosine * twice)) return infinite;
+  return twice > least_fullness * longest && (n | normal_) > least_cosine * twice ? n : Vec3d(0, 0, 0);
+}
+
+double PatchView::triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
+  const Vec3d n = fair_area(a, b, c);
+  const double twice = n.norm();
+  if (!(twice > 0)) return infinite;
   const Place p = seen(a), q = seen(b), r = seen(c);
-  const auto side = [](const Place& from, const Place& to, const Place& x) {
-    return (to.x - from.x) * (x.y - from.y) - (to.y - from.y) * (x.x - from.x);
-  };
   double sum = 0;
   for (size_t i = 0; i < samples_.size(); ++i) {
     const Place& x = places_[i];
@@ -52,6 +55,31 @@ double PatchView::triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) const
     sum += samples_[i].weight * height * height;
   }
   return sum;
+}
+
+double PatchView::triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, const SampleSet* ab,
+                           const SampleSet* bc, const SampleSet* ca) const {
+  const Vec3d n = fair_area(a, b, c);
+  const double twice = n.norm();
+  if (!(twice > 0)) return infinite;
+  double sum = 0;
+  for (size_t word = 0; word < set_size(); ++word) {
+    for (SampleSet left = ab[word] & bc[word] & ca[word]; left != 0; left &= left - 1) {
+      const size_t i = 64 * word + static_cast<size_t>(__builtin_ctzll(left));
+      const double height = ((samples_[i].place - a) | n) / twice;
+      if (std::abs(height) > costs_.limit) return infinite;
+      sum += samples_[i].weight * height * height;
+    }
+  }
+  return sum;
+}
+
+void PatchView::samples_left_of(const Vec3d& from, const Vec3d& to, SampleSet* set) const {
+  const Place p = seen(from), q = seen(to);
+  for (size_t begin = 0; begin < places_.size(); begin += 64, ++set) {
+    const size_t n = std::min<size_t>(64, places_.size() - begin);
+    for (size_t i = 0; i < n; ++i) *set |= static_cast<SampleSet>(!(side(p, q, places_[begin + i]) < 0)) << i;
+  }
 }
 
 double PatchView::chord(const Vec3d& a, const Vec3d& b) const {
@@ -125,7 +153,9 @@ class RingProgram {
         n_(ring.size()),
         best_(n_ * n_, -1),
         choice_(n_ * n_),
-        triangle_(n_ * n_ * n_, -1) {}
+        triangle_(n_ * n_ * n_, -1),
+        known_left_(n_ * n_, 0),
+        left_(n_ * n_ * view.set_size(), 0) {}
 
   PatchPieces run() {
     PatchPieces result;
@@ -144,8 +174,15 @@ class RingProgram {
   }
   double triangle(size_t i, size_t j, size_t k) {
     double& known = triangle_[(i * n_ + j) * n_ + k];
-    if (known < 0) known = view_.triangle(ring_[i], ring_[j], ring_[k]);
+    if (known < 0)
+      known = view_.triangle(ring_[i], ring_[j], ring_[k], left_of(i, j), left_of(j, k), left_of(k, i));
     return known;
+  }
+  const SampleSet* left_of(size_t i, size_t j) {
+    SampleSet* set = left_.data() + (i * n_ + j) * view_.set_size();
+    char& known = known_left_[i * n_ + j];
+    if (!known) view_.samples_left_of(ring_[i], ring_[j], set), known = 1;
+    return set;
   }
   double quad(size_t i, size_t j, size_t k, size_t l) {
     const bool first = (ring_[k] - ring_[i]).sqrnorm() <= (ring_[l] - ring_[j]).sqrnorm();
@@ -203,6 +240,8 @@ class RingProgram {
   std::vector<double> best_;
   std::vector<Choice> choice_;
   std::vector<double> triangle_;
+  std::vector<char> known_left_;
+  std::vector<SampleSet> left_;  // of the samples, those to the left of each chord
 };
 
 }  // namespace

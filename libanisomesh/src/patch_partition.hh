@@ -1,6 +1,7 @@
 // The cheapest partition of one patch into triangles and quads, by the error of the samples on it.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -11,6 +12,9 @@
 namespace anisomesh::detail {
 
 constexpr size_t most_corners = 12;  ///< of a ring: more take too long
+
+/// 64 samples, a bit each; a set has PatchView::set_size() of them.
+using SampleSet = std::uint64_t;
 
 struct PatchSample {
   Vec3d place{0, 0, 0};
@@ -39,6 +43,11 @@ class PatchView {
 
   /// Sum of weight * distance^2 to the triangle's plane; infinite where it is turned over, thin or steep.
   double triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) const;
+  /// The same, with the samples to the left of each of its sides.
+  double triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, const SampleSet* ab, const SampleSet* bc,
+                  const SampleSet* ca) const;
+  size_t set_size() const { return (samples_.size() + 63) / 64; }
+  void samples_left_of(const Vec3d& from, const Vec3d& to, SampleSet* set) const;
   /// The same of a quad split along its shorter diagonal; infinite where it is concave or bent too far.
   double quad(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) const;
   const std::vector<PatchSample>& samples() const { return samples_; }
@@ -50,6 +59,11 @@ class PatchView {
     double x = 0, y = 0;
   };
   Place seen(const Vec3d& p) const { return {p | u_, p | v_}; }
+  static double side(const Place& from, const Place& to, const Place& x) {
+    return (to.x - from.x) * (x.y - from.y) - (to.y - from.y) * (x.x - from.x);
+  }
+  /// Twice the area vector of a triangle that may be made; zero of one that is turned over, thin or steep.
+  Vec3d fair_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) const;
 
   Vec3d normal_, u_, v_;
   Orientation lines_;             // what lines follow here

@@ -214,12 +214,19 @@ bool PolygonJudge::is_convex(const std::vector<Vec3d>& p) {
   const double length = area.norm();
   if (!(length > 0)) return false;
   const Vec3d normal = area / length;
+  const auto turn = [&](size_t k) {  // sine and cosine of the turn in the plane, times the lengths there
+    const Vec3d in = p[k] - p[(k + n - 1) % n], out = p[(k + 1) % n] - p[k];
+    return Vec2d(cross(in, out) | normal, (in | out) - (in | normal) * (out | normal));
+  };
+  size_t left = 0;
+  while (left < n && turn(left)[0] > 0) ++left;
+  if (left == n && n <= 4) return true;  // so few turns to the left do not go around twice
   double turns = 0;
   for (size_t k = 0; k < n; ++k) {
-    const Vec3d in = p[k] - p[(k + n - 1) % n], out = p[(k + 1) % n] - p[k];
-    const double turn = std::atan2(cross(in, out) | normal, (in | out) - (in | normal) * (out | normal));
-    if (turn < -4 * degree) return false;
-    turns += turn;
+    const Vec2d t = turn(k);
+    const double angle = std::atan2(t[0], t[1]);
+    if (angle < -4 * degree) return false;
+    turns += angle;
   }
   return turns < 3 * pi;
 }
