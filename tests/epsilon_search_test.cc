@@ -18,6 +18,7 @@ struct MadeUp {
   std::function<double(double)> count = [](double epsilon) { return 1.8 / epsilon; };
   std::function<bool(double epsilon, size_t attempt)> refused = [](double, size_t) { return false; };
   bool only_near = false;  ///< results far from the target are but a count
+  std::function<bool(double)> sound = [](double) { return false; };  ///< ... but those that are sound at once
   std::vector<double> asked;
   double last = 0, kept = 0;  ///< epsilon
   int keeps = 0;
@@ -33,7 +34,7 @@ struct MadeUp {
       if (refused(epsilon, asked.size() - 1)) throw CannotProcess("made up");
       last = epsilon;
       const double made = count(epsilon);
-      const bool far = only_near && !any && std::abs(made / wanted - 1) > 0.3;
+      const bool far = only_near && !any && std::abs(made / wanted - 1) > 0.3 && !sound(epsilon);
       return detail::EpsilonSearch::Made{static_cast<size_t>(std::lround(made)), !far};
     };
     steps.keep = [this] {
@@ -130,6 +131,17 @@ TEST_CASE("where the nearest count has no result, one that is less near has", "[
   const auto found = made.search(1000);
   CHECK(!found.met);
   CHECK(made.keeps == 1);
+  CHECK(made.kept == Approx(0.0018));
+}
+
+TEST_CASE("a larger epsilon that brings next to nothing is not taken for being sound at once",
+          "[epsilon_search]") {
+  MadeUp made;  // as joint's with 40 degrees: the finer one is a count alone at first, and the better result
+  made.count = [](double epsilon) { return epsilon < 0.002 ? 2100.0 : 2000.0; };
+  made.only_near = true;
+  made.sound = [](double epsilon) { return epsilon > 0.002; };
+  const auto found = made.search(1000);
+  CHECK(!found.met);
   CHECK(made.kept == Approx(0.0018));
 }
 

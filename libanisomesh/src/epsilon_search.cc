@@ -40,6 +40,7 @@ double epsilon_of(double wanted, const std::function<double(double)>& crossings)
 struct Trial {
   double log_epsilon = 0;
   double log_ratio = 0;  ///< log of count over target
+  bool stalled = false;  ///< a smaller one has nearly the same
   double off() const { return std::abs(std::exp(log_ratio) - 1); }
 };
 
@@ -103,15 +104,16 @@ bool is_tried(double epsilon, const std::vector<Trial>& trials) {
 }
 
 Trial trial_of(double epsilon, size_t count, double wanted) {
-  return {std::log(epsilon), std::log(std::max(static_cast<double>(count), 0.5) / wanted)};
+  return {std::log(epsilon), std::log(std::max(static_cast<double>(count), 0.5) / wanted), false};
 }
 
 /// Where there may be a result after all: the attempts with a count alone, the nearest first, the nearest
-/// with its next smaller ones; then farther and farther off, to both sides.
+/// with its next smaller ones, and last what only spoils; then farther and farther off, to both sides.
 std::vector<double> last_resorts(std::vector<Trial> trials, const std::vector<double>& refused) {
   std::vector<double> result;
-  std::sort(trials.begin(), trials.end(),
-            [](const Trial& a, const Trial& b) { return std::abs(a.log_ratio) < std::abs(b.log_ratio); });
+  std::sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) {
+    return a.stalled != b.stalled ? b.stalled : std::abs(a.log_ratio) < std::abs(b.log_ratio);
+  });
   for (const Trial& trial : trials) {
     result.push_back(std::exp(trial.log_epsilon));
     while (result.size() <= kMostRefusals) result.push_back(kNextAfterRefusal * result.back());
@@ -172,10 +174,10 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
     found.tried.push_back({epsilon, made.count});
     trials.push_back(trial_of(epsilon, made.count, wanted));
     const double off = trials.back().off();
-    const bool stalled = is_stalled(trials), first = !std::isfinite(best_off);
+    const bool stalled = trials.back().stalled = is_stalled(trials);
     const bool enough = off <= (trials.back().log_ratio < 0 ? search.enough_below : search.enough_above);
     const bool met = off <= options.tolerance || enough || (found.attempts >= 3 && off <= kMet);
-    if (made.has_result && (met || first || (off < best_off && !stalled))) {
+    if (made.has_result && (met || (!stalled && off < best_off))) {
       best_off = off;
       search.keep();
     }
