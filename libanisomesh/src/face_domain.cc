@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <queue>
 
@@ -194,14 +195,22 @@ void FaceDomain::make_spacing(const std::vector<Vec3d>& node_tensors,
     grade(spacing_, static_cast<size_t>(kind), links, max_slope_);
 }
 
+// Where there is noise there are umbilics everywhere, each within reach of thousands of faces, and next to
+// all of them have a nearer one.
 void FaceDomain::register_umbilics(
-    const std::function<std::vector<NearEntry>(const SurfacePoint&, double)>& faces_and_places) {
+    const std::function<std::vector<NearFace>(const SurfacePoint&, double, const IsHidden&)>& faces_near) {
+  constexpr double kSurelyFarther = 2;  // times: ways that unfold differently do not make up for that
+  std::vector<double> farthest(faces_.size(), std::numeric_limits<double>::infinity());  // of the nearest
+  const auto is_hidden = [&farthest](int face, double distance) {
+    return distance > kSurelyFarther * farthest[static_cast<size_t>(face)];
+  };
   for (size_t u = 0; u < umbilics_.size(); ++u) {
     const SurfacePoint& at = umbilics_[u].point;
     const double reach = std::max(spacing(LineKind::min, at), spacing(LineKind::max, at)) / 3;
-    for (NearEntry entry : faces_and_places(at, reach)) {
-      entry.umbilic = static_cast<int>(u);
-      near_umbilics_.push_back(entry);
+    for (const NearFace& near : faces_near(at, reach, is_hidden)) {
+      near_umbilics_.push_back({near.face, static_cast<int>(u), near.place});
+      double& known = farthest[static_cast<size_t>(near.face)];
+      known = std::min(known, near.farthest);
     }
   }
   std::sort(near_umbilics_.begin(), near_umbilics_.end());

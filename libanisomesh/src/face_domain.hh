@@ -66,15 +66,18 @@ class FaceDomain : public Domain {
   void make_spacing(const std::vector<Vec3d>& node_tensors,
                     const std::function<double(size_t face, int i)>& length);
 
-  /// An umbilic that may be near to points of a face, and where it lies as seen from there.
-  struct NearEntry {
-    int face = 0, umbilic = 0;
-    Vec2d place{0, 0};
-    bool operator<(const NearEntry& o) const { return face != o.face ? face < o.face : umbilic < o.umbilic; }
+  /// A face near an umbilic.
+  struct NearFace {
+    int face = -1;
+    Vec2d place{0, 0};    ///< of the umbilic, as seen from there
+    double farthest = 0;  ///< from there to a corner of the face
   };
-  /// \param faces_and_places the faces within a distance of a point
+  /// Whether an umbilic so far from a face counts for none of its points, since another one is nearer to all.
+  using IsHidden = std::function<bool(int face, double distance)>;
+  /// \param faces_near the faces within a distance of a point, but those where it is hidden and what lies
+  /// behind them
   void register_umbilics(
-      const std::function<std::vector<NearEntry>(const SurfacePoint&, double)>& faces_and_places);
+      const std::function<std::vector<NearFace>(const SurfacePoint&, double, const IsHidden&)>& faces_near);
   /// Distance of a point to a place as its face sees it.
   virtual double distance(const SurfacePoint& at, const Vec2d& place) const = 0;
 
@@ -85,6 +88,12 @@ class FaceDomain : public Domain {
   std::vector<DomainFace> faces_;
 
  private:
+  struct NearEntry {
+    int face = 0, umbilic = 0;
+    Vec2d place{0, 0};
+    bool operator<(const NearEntry& o) const { return face != o.face ? face < o.face : umbilic < o.umbilic; }
+  };
+
   std::vector<std::array<double, 2>> spacing_;  // of each node, by LineKind
   std::vector<UmbilicPoint> umbilics_;
   std::vector<NearEntry> near_umbilics_;  // ascending

@@ -26,6 +26,8 @@ constexpr double negligible =
 constexpr double thinner = 0.02;  // which may leave so much of the area
 constexpr double pi = 3.14159265358979323846;
 constexpr int flip_passes = 50, vertices_a_breath = 256;
+constexpr unsigned large_star =
+    24;  // what has taken so many in waits, or it would take the next one in, and the next
 constexpr size_t most_judged = 64;   // neighbours, by what each would turn over: the nearest
 constexpr size_t nearest_tried = 6;  // neighbours that a vertex may be moved to, unless nothing else is left
 
@@ -199,27 +201,26 @@ void MeshEmbedding::drop(int node) {
 
 bool MeshEmbedding::take_out(VertexHandle v, Care care) {
   using Neighbour = std::pair<double, VertexHandle>;
-  const auto ascending = [](const std::vector<VertexHandle>& beside, auto&& measure) {
+  const auto by_key = [](const Neighbour& a, const Neighbour& b) { return a.first < b.first; };
+  const auto measured = [](const std::vector<Neighbour>& beside, auto&& measure) {
     std::vector<double> keys;
-    for (const auto w : beside) keys.push_back(measure(w));
+    for (const auto& w : beside) keys.push_back(measure(w.second));
     keys = in_steps(std::move(keys));
     std::vector<Neighbour> result;
-    for (size_t i = 0; i < keys.size(); ++i) result.emplace_back(keys[i], beside[i]);
-    std::sort(result.begin(), result.end());
+    for (size_t i = 0; i < keys.size(); ++i) result.emplace_back(keys[i], beside[i].second);
     return result;
   };
-  std::vector<VertexHandle> beside;
-  for (const auto w : mesh_.vv_range(v)) beside.push_back(w);
+  std::vector<Neighbour> near;
+  for (const auto w : mesh_.vv_range(v)) near.emplace_back(0, w);
+  near = measured(near, [&](VertexHandle w) { return (mesh_.point(w) - mesh_.point(v)).sqrnorm(); });
+  std::sort(near.begin(), near.end());
   const bool last = care == Care::topology;
-  const auto away = [&](VertexHandle w) { return (mesh_.point(w) - mesh_.point(v)).sqrnorm(); };
-  if (last && beside.size() > most_judged) {
-    const auto nearest = ascending(beside, away);
-    beside.clear();
-    for (size_t i = 0; i < most_judged; ++i) beside.push_back(nearest[i].second);
+  if (last) {  // Something will be turned over: as little as can be. Where it is the same, the nearest takes
+               // the star in: in a flat place one vertex would take in all others.
+    near.resize(std::min(near.size(), most_judged));
+    near = measured(near, [&](VertexHandle w) { return -lowest_cosine(v, w); });
+    std::stable_sort(near.begin(), near.end(), by_key);
   }
-  // At last something will be turned over: as little as can be.
-  const auto turned = [&](VertexHandle w) { return -lowest_cosine(v, w); };
-  const auto near = last ? ascending(beside, turned) : ascending(beside, away);
   const size_t tried = last ? near.size() : std::min(near.size(), nearest_tried);
   for (size_t i = 0; i < tried; ++i) {
     if (last && !(near[i].first < 0)) break;  // this one turns a triangle over, and the rest
@@ -269,7 +270,7 @@ void MeshEmbedding::coarsen(const NetworkGraph& network, double tolerance,
       std::vector<int> left;
       for (const int n : waiting) {
         const VertexHandle v(n);
-        if (touched[at(n)] == pass && care == Care::shape) {
+        if (touched[at(n)] == pass && (care == Care::shape || mesh_.valence(v) > large_star)) {
           left.push_back(n);
           continue;
         }

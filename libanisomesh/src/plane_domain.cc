@@ -49,10 +49,16 @@ PlaneDomain::PlaneDomain(const SurfaceRef& surface, const PlaneInput& input, con
     const Node &from = node(faces_[f], i), &to = node(faces_[f], (i + 1) % 3);
     return (to.uv - from.uv).norm() / (0.5 * (from.scale + to.scale));
   });
-  register_umbilics([this](const SurfacePoint& at, double radius) {
-    std::vector<NearEntry> entries;
-    for (const int f : faces_within(at, radius)) entries.push_back({f, -1, plane_position(at)});
-    return entries;
+  register_umbilics([this](const SurfacePoint& at, double radius, const IsHidden& is_hidden) {
+    const Vec2d place = plane_position(at);
+    std::vector<NearFace> found;
+    for (const int f : faces_within(at, radius, is_hidden)) {
+      double farthest = 0;
+      for (int i = 0; i < 3; ++i)
+        farthest = std::max(farthest, (node(faces_[static_cast<size_t>(f)], i).uv - place).norm());
+      found.push_back({f, place, farthest});
+    }
+    return found;
   });
 }
 
@@ -90,10 +96,12 @@ void PlaneDomain::make_nodes(const SurfaceRef& surface, const PlaneInput& input)
 }
 
 void PlaneDomain::mark_within(const SurfacePoint& at, double radius, std::vector<char>& marks) const {
-  for (const int f : faces_within(at, radius)) marks[static_cast<size_t>(f)] = 1;
+  for (const int f : faces_within(at, radius, [](int, double) { return false; }))
+    marks[static_cast<size_t>(f)] = 1;
 }
 
-std::vector<int> PlaneDomain::faces_within(const SurfacePoint& at, double radius) const {
+std::vector<int> PlaneDomain::faces_within(const SurfacePoint& at, double radius,
+                                           const IsHidden& is_hidden) const {
   const Vec2d centre = plane_position(at);
   const double plane_radius = radius * scale(at);
   std::vector<int> found{at.face.idx()};
@@ -106,7 +114,9 @@ std::vector<int> PlaneDomain::faces_within(const SurfacePoint& at, double radius
       if (next < 0) continue;
       const Vec2d a = node(current, (i + 1) % 3).uv, ab = node(current, (i + 2) % 3).uv - a;
       const double t = std::clamp(((centre - a) | ab) / ab.sqrnorm(), 0.0, 1.0);
-      if ((a + t * ab - centre).norm() <= plane_radius && seen.insert(next).second) found.push_back(next);
+      const double distance = (a + t * ab - centre).norm();
+      if (distance <= plane_radius && !is_hidden(next, distance) && seen.insert(next).second)
+        found.push_back(next);
     }
   }
   return found;

@@ -59,7 +59,7 @@ class PlaneDomain final : public FaceDomain {
   void make_nodes(const SurfaceRef& surface, const PlaneInput& input);
   template <class Visit>
   Reach walk_visiting(const SurfacePoint& from, const Vec2d& vector, Visit&& visit) const;
-  std::vector<int> faces_within(const SurfacePoint& at, double radius) const;
+  std::vector<int> faces_within(const SurfacePoint& at, double radius, const IsHidden& is_hidden) const;
   LinearField field(const Face& face) const;
   Vec3d barycentric(const Face& face, const Vec2d& point) const;
   double distance(const SurfacePoint& at, const Vec2d& place) const override;

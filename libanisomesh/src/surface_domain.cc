@@ -74,13 +74,19 @@ SurfaceDomain::SurfaceDomain(const SurfaceRef& surface, SurfaceInput input, cons
     return (unfolded_.corner(face, (i + 1) % 3) - unfolded_.corner(face, i)).norm();
   });
   SurfaceFlood flood(unfolded_);
-  register_umbilics([&flood](const SurfacePoint& at, double radius) {
-    std::vector<NearEntry> entries;
-    flood.run(at, radius, [&](const SurfaceFlood::Visit& visit) {
-      entries.push_back({visit.face, -1, visit.place});
-      return radius;
-    });
-    return entries;
+  register_umbilics([&](const SurfacePoint& at, double radius, const IsHidden& is_hidden) {
+    std::vector<NearFace> found;
+    flood.search(
+        at, radius,
+        [&](const SurfaceFlood::Visit& visit) {
+          double farthest = 0;
+          for (int i = 0; i < 3; ++i)
+            farthest = std::max(farthest, (unfolded_.corner(visit.face, i) - visit.place).norm());
+          found.push_back({visit.face, visit.place, farthest});
+          return radius;
+        },
+        [&](int face, double distance) { return is_hidden(face, distance) ? radius : 0.0; });
+    return found;
   });
   measure_fences();
 }

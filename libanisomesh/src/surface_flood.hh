@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "unfolded_faces.hh"
@@ -32,7 +33,8 @@ class SurfaceFlood {
   }
 
   /// The same for the sake of something whose distance is known from below: leaves out the faces from which
-  /// it is too far. \param beyond the bound for a face \param straight visits first what seems to be on the
+  /// it is too far. \param beyond the bound for a face, which may ask for the distance it is reached at
+  /// \param straight visits first what seems to be on the
   /// way there; a face may then be reached by a way that is not the shortest
   template <class OnVisit, class Beyond>
   void search(const SurfacePoint& start, double radius, OnVisit&& visit, Beyond&& beyond,
@@ -44,7 +46,7 @@ class SurfaceFlood {
     }
     visits_.clear();
     open_.clear();
-    if (!(beyond(start.face.idx()) < radius)) return;
+    if (!(bound(beyond, start.face.idx(), 0) < radius)) return;
     take({start.face.idx(), faces_.place(start), {1, 0}, 0, -1, -1}, radius, visit, beyond);
     while (!open_.empty()) {
       std::pop_heap(open_.begin(), open_.end());
@@ -83,6 +85,14 @@ class SurfaceFlood {
     return away > distance ? 1 - distance / away : 0;  // in [0, 1]
   }
 
+  template <class Beyond>
+  static double bound(Beyond&& beyond, int face, double distance) {
+    if constexpr (std::is_invocable_v<Beyond, int, double>)
+      return beyond(face, distance);
+    else
+      return beyond(face);
+  }
+
   template <class OnVisit, class Beyond>
   void take(const Visit& visit, double& radius, OnVisit&& on_visit, Beyond&& beyond) {
     seen_[static_cast<size_t>(visit.face)] = run_;
@@ -95,7 +105,7 @@ class SurfaceFlood {
       double unused = 0;
       const double distance =
           std::max(visit.distance, std::sqrt(faces_.edge_distance2(visit.face, i, visit.place, unused)));
-      const double at_least = distance + beyond(next);
+      const double at_least = distance + bound(beyond, next, distance);
       if (!(at_least < radius)) continue;
       open_.push_back({(straight_ ? at_least : distance) * (1 + kAside * aside(visit, i, distance)), at_least,
                        distance, static_cast<int>(visits_.size()) - 1, i});
