@@ -53,7 +53,7 @@ TEST_CASE("a fold that stays wherever its corners go is parted anew", "[unfold]"
   std::vector<PolyMesh> candidates{sound, result_on(surface, places, {{0, 1, 2, 4}, {2, 3, 4}})};
   REQUIRE(candidates[1].n_faces() == 2);
   REQUIRE(compare(plane, candidates[1]).folded_faces > 0);
-  CHECK(detail::choose_unfolded(surface, candidates) == 1);
+  CHECK(detail::choose_unfolded(surface, detail::ReferenceSurface(surface), candidates) == 1);
   PolyMesh& mended = candidates[1];
   CHECK(compare(plane, mended).folded_faces == 0);
   CHECK(mended.n_vertices() == 5);
@@ -73,7 +73,7 @@ TEST_CASE("folds that were there before the fit are no reason to keep any", "[un
       {-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {0, -0.2, 0}, {-0.5, 0.5, 0}};
   const PolyMesh folded = result_on(surface, places, {{0, 1, 2, 4}, {2, 3, 4}});
   std::vector<PolyMesh> candidates{folded, folded};
-  const int taken = detail::choose_unfolded(surface, candidates);
+  const int taken = detail::choose_unfolded(surface, detail::ReferenceSurface(surface), candidates);
   CHECK(compare(plane, candidates[static_cast<size_t>(taken)]).folded_faces == 0);
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("without folds the last candidate is taken as it is", "[unfold]") {
   const std::vector<Vec3d> places{{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}};
   const PolyMesh quad = result_on(surface, places, {{0, 1, 2, 3}});
   std::vector<PolyMesh> candidates{quad, result_on(surface, places, {{0, 1, 2}, {0, 2, 3}})};
-  CHECK(detail::choose_unfolded(surface, candidates) == 1);
+  CHECK(detail::choose_unfolded(surface, detail::ReferenceSurface(surface), candidates) == 1);
   CHECK(candidates[1].n_faces() == 2);
 }
 
@@ -95,10 +95,10 @@ TEST_CASE("a concave quad is parted in two, where concave ones were not asked fo
   PolyMesh quad = result_on(surface, places, {{0, 1, 2, 3}});
   REQUIRE(compare(plane, quad).concave_faces == 1);
   std::vector<PolyMesh> candidates{triangles, quad};
-  CHECK(detail::choose_unfolded(surface, candidates) == 1);
+  CHECK(detail::choose_unfolded(surface, detail::ReferenceSurface(surface), candidates) == 1);
   CHECK(candidates[1].n_faces() == 2);
   CHECK(compare(plane, candidates[1]).concave_faces == 0);
   std::vector<PolyMesh> asked_for{quad, quad};
-  CHECK(detail::choose_unfolded(surface, asked_for) == 1);
+  CHECK(detail::choose_unfolded(surface, detail::ReferenceSurface(surface), asked_for) == 1);
   CHECK(asked_for[1].n_faces() == 1);
 }

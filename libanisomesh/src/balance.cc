@@ -8,6 +8,8 @@
 #include "anisomesh/errors.hh"
 #include "anisomesh/properties.hh"
 #include "canonical_copy.hh"
+#include "compare_parts.hh"
+#include "far_moves.hh"
 #include "patch_moves.hh"
 #include "quad_splits.hh"
 #include "recorded.hh"
@@ -94,6 +96,7 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
   fit_options.validate();
   BalanceReport report;
   const detail::FitInput input(surface);
+  const detail::ReferenceSurface reference(surface);
   OpenMesh::PolyMesh work = result, fitted;
   double rms_fitted = 0;
   const auto rms = [&](double energy) { return std::sqrt(0.5 * energy) / surface.diagonal(); };
@@ -118,10 +121,16 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     PatchChanges changes(mesh);
     const long surplus = wanted.surplus(work);
     const auto removals = moves.removals(mesh), additions = moves.additions(mesh, surplus < 0);
-    const auto repartitions = moves.repartitions(mesh);
+    const double triangle = options.triangle_cost * moves.mean_error();
+    const detail::FarMoves far(reference, *state, options.max_degree == 4, triangle);
+    const auto far_moves = far.repartitions(mesh), repartitions = moves.repartitions(mesh);
+    const auto apply = [&](const std::vector<PatchMove>& found) {
+      for (const PatchMove& move : found)
+        if (changes.is_open(move)) changes.apply(move), ++report.parted;
+    };
+    apply(far_moves);
     exchange(changes, removals, additions, surplus, report);
-    for (const PatchMove& move : repartitions)
-      if (changes.is_open(move)) changes.apply(move), ++report.parted;
+    apply(repartitions);
     work = mesh.mesh();
     state = std::make_unique<detail::FitState>(std::move(*state), work, mesh.heirs());
   }
@@ -142,7 +151,7 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
   std::vector<OpenMesh::PolyMesh> candidates{result};
   if (change) candidates.push_back(std::move(fitted));
   if (!worse) candidates.push_back(std::move(work));
-  const auto taken = static_cast<size_t>(detail::choose_unfolded(surface, candidates));
+  const auto taken = static_cast<size_t>(detail::choose_unfolded(surface, reference, candidates));
   if (taken + 1 < candidates.size()) report.fit.rms_after = taken == 0 ? report.fit.rms_before : rms_fitted;
   result = std::move(candidates[taken]);
   report.fit.seconds = report.seconds =

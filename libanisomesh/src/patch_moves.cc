@@ -23,9 +23,9 @@ constexpr double worth_a_look = 1.2;    // mean errors: better polygons are left
 constexpr double tried_removals = 0.3;  // of all vertices, those that seem cheapest
 constexpr double worth_adding = 2;      // mean errors: there a vertex may be added
 constexpr double worth_adding_where_lacking = 1.2;
-constexpr double lying_across = 0.3;  // mean errors: a side that costs more for how it lies is looked at
-constexpr double least_gain = 0.05;   // mean errors, of a repartition
-constexpr double hanging = 3;         // times the error of the input beside it, or the mean one
+constexpr double lying_across = 0.3;    // mean errors: a side that costs more for how it lies is looked at
+constexpr double worth_parting = 0.05;  // mean errors: a repartition gains that
+constexpr double hanging = 3;           // times the error of the input beside it, or the mean one
 
 // Of moves that gain the same but for rounding, as one quad parted alone or with what stays beside it, the
 // first comes first.
@@ -255,7 +255,7 @@ PatchMove PatchMoves::partition(const PatchMesh& mesh, const PatchMesh::Patch& p
   if (!std::isfinite(found.cost)) return move;
   move.patch = patch;
   move.gain = now - found.cost;
-  if (keeps_vertices && !(move.gain > least_gain * mean_error_)) return move;
+  if (keeps_vertices && !(move.gain > worth_parting * mean_error_)) return move;
   for (auto& piece : found.pieces) {
     for (int& i : piece) i = patch.ring[at(i)];
     move.pieces.push_back(std::move(piece));
@@ -318,7 +318,7 @@ std::vector<PatchMove> PatchMoves::partitions(const PatchMesh& mesh,
   std::vector<PatchMove> moves(groups.size());
   tbb::parallel_for(size_t{0}, groups.size(), [&](size_t i) {
     PatchMove move = partition(mesh, mesh.join(groups[i]), true);
-    if (move.gain > least_gain * mean_error_) moves[i] = std::move(move);
+    if (move.gain > worth_parting * mean_error_) moves[i] = std::move(move);
   });
   return moves;
 }

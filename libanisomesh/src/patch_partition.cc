@@ -145,17 +145,14 @@ namespace {
 /// triangles differently cost the same, and the first is taken: rounding does not choose.
 class RingProgram {
  public:
-  RingProgram(const PatchView& view, const std::vector<Vec3d>& ring, const std::vector<char>& forbidden)
-      : view_(view),
+  RingProgram(const RingCosts& costs, const std::vector<Vec3d>& ring, const std::vector<char>& forbidden)
+      : costs_(costs),
         ring_(ring),
         forbidden_(forbidden),
-        triangle_cost_(view.costs().triangle),
         n_(ring.size()),
         best_(n_ * n_, -1),
         choice_(n_ * n_),
-        triangle_(n_ * n_ * n_, -1),
-        known_left_(n_ * n_, 0),
-        left_(n_ * n_ * view.set_size(), 0) {}
+        triangle_(n_ * n_ * n_, -1) {}
 
   PatchPieces run() {
     PatchPieces result;
@@ -174,15 +171,8 @@ class RingProgram {
   }
   double triangle(size_t i, size_t j, size_t k) {
     double& known = triangle_[(i * n_ + j) * n_ + k];
-    if (known < 0)
-      known = view_.triangle(ring_[i], ring_[j], ring_[k], left_of(i, j), left_of(j, k), left_of(k, i));
+    if (known < 0) known = costs_.triangle(i, j, k);
     return known;
-  }
-  const SampleSet* left_of(size_t i, size_t j) {
-    SampleSet* set = left_.data() + (i * n_ + j) * view_.set_size();
-    char& known = known_left_[i * n_ + j];
-    if (!known) view_.samples_left_of(ring_[i], ring_[j], set), known = 1;
-    return set;
   }
   double quad(size_t i, size_t j, size_t k, size_t l) {
     const bool first = (ring_[k] - ring_[i]).sqrnorm() <= (ring_[l] - ring_[j]).sqrnorm();
@@ -203,12 +193,12 @@ class RingProgram {
         if (!(left < best)) continue;
         if (may_join(k, j)) {
           const double right = cost(k, j);
-          if (left + right + triangle_cost_ < best) {
-            const double sum = left + right + triangle_cost_ + triangle(i, k, j);
+          if (left + right + costs_.each_triangle < best) {
+            const double sum = left + right + costs_.each_triangle + triangle(i, k, j);
             if (is_surely_less(sum, best)) best = sum, choice_[i * n_ + j] = {k, 0};
           }
         }
-        for (size_t l = k + 1; l < j && view_.costs().quads; ++l) {
+        for (size_t l = k + 1; l < j && costs_.quads; ++l) {
           if (!may_join(k, l) || !may_join(l, j)) continue;
           const double rest = left + cost(k, l) + cost(l, j);
           if (!(rest < best)) continue;
@@ -216,7 +206,7 @@ class RingProgram {
           if (is_surely_less(sum, best)) best = sum, choice_[i * n_ + j] = {k, l};
         }
       }
-    return known = best + (inner ? view_.chord(ring_[i], ring_[j]) : 0);
+    return known = best + (inner ? costs_.chord(i, j) : 0);
   }
   void collect(size_t i, size_t j, std::vector<std::vector<int>>& pieces) const {
     if (j == i + 1) return;
@@ -232,23 +222,53 @@ class RingProgram {
     collect(c.l == 0 ? c.k : c.l, j, pieces);
   }
 
-  const PatchView& view_;
+  const RingCosts& costs_;
   const std::vector<Vec3d>& ring_;
   const std::vector<char>& forbidden_;
-  double triangle_cost_;
   size_t n_;
   std::vector<double> best_;
   std::vector<Choice> choice_;
   std::vector<double> triangle_;
-  std::vector<char> known_left_;
-  std::vector<SampleSet> left_;  // of the samples, those to the left of each chord
+};
+
+/// Of the samples, those to the left of each chord of a ring.
+class LeftOfChords {
+ public:
+  LeftOfChords(const PatchView& view, const std::vector<Vec3d>& ring)
+      : view_(view),
+        ring_(ring),
+        known_(ring.size() * ring.size(), 0),
+        sets_(ring.size() * ring.size() * view.set_size(), 0) {}
+
+  const SampleSet* operator()(size_t from, size_t to) {
+    const size_t chord = from * ring_.size() + to;
+    SampleSet* set = sets_.data() + chord * view_.set_size();
+    if (!known_[chord]) view_.samples_left_of(ring_[from], ring_[to], set), known_[chord] = 1;
+    return set;
+  }
+
+ private:
+  const PatchView& view_;
+  const std::vector<Vec3d>& ring_;
+  std::vector<char> known_;
+  std::vector<SampleSet> sets_;
 };
 
 }  // namespace
 
+PatchPieces partition_ring(const RingCosts& costs, const std::vector<Vec3d>& ring,
+                           const std::vector<char>& forbidden) {
+  return RingProgram(costs, ring, forbidden).run();
+}
+
 PatchPieces partition_ring(const PatchView& view, const std::vector<Vec3d>& ring,
                            const std::vector<char>& forbidden) {
-  return RingProgram(view, ring, forbidden).run();
+  LeftOfChords left(view, ring);
+  const auto triangle = [&](size_t i, size_t j, size_t k) {
+    return view.triangle(ring[i], ring[j], ring[k], left(i, j), left(j, k), left(k, i));
+  };
+  const auto chord = [&](size_t i, size_t j) { return view.chord(ring[i], ring[j]); };
+  return partition_ring({triangle, chord, view.costs().triangle, view.costs().quads}, ring, forbidden);
 }
 
 PatchPieces partition_around(const PatchView& view, const std::vector<Vec3d>& ring, const Vec3d& middle) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -81,7 +82,17 @@ struct PatchPieces {
   std::vector<std::vector<int>> pieces;  ///< indices into the ring; one past it is the middle
 };
 
+/// What the pieces of a ring cost, by the numbers of their corners.
+struct RingCosts {
+  std::function<double(size_t, size_t, size_t)> triangle;  ///< asked for once each; infinite: not to be made
+  std::function<double(size_t, size_t)> chord;             ///< inside the ring
+  double each_triangle = 0;
+  bool quads = true;
+};
+
 /// \param forbidden n * n, pairs of the ring that must not be joined
+PatchPieces partition_ring(const RingCosts& costs, const std::vector<Vec3d>& ring,
+                           const std::vector<char>& forbidden);
 PatchPieces partition_ring(const PatchView& view, const std::vector<Vec3d>& ring,
                            const std::vector<char>& forbidden);
 

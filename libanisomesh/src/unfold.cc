@@ -43,8 +43,8 @@ std::vector<char> concave_faces_of(const OpenMesh::PolyMesh& mesh) {
 class FaceJudge {
  public:
   /// \param before whose polygons may be concave where it has such
-  FaceJudge(const SurfaceRef& surface, const OpenMesh::PolyMesh& before)
-      : reference_(surface), convex_(count(concave_faces_of(before)) == 0) {}
+  FaceJudge(const ReferenceSurface& reference, const OpenMesh::PolyMesh& before)
+      : reference_(reference), convex_(count(concave_faces_of(before)) == 0) {}
 
   const ReferenceSurface& reference() const { return reference_; }
   std::vector<char> broken(const OpenMesh::PolyMesh& mesh) const {
@@ -59,7 +59,7 @@ class FaceJudge {
   }
 
  private:
-  ReferenceSurface reference_;
+  const ReferenceSurface& reference_;
   bool convex_;
 };
 
@@ -155,8 +155,9 @@ size_t mend(const SurfaceRef& surface, const FaceJudge& judge, OpenMesh::PolyMes
 
 }  // namespace
 
-int choose_unfolded(const SurfaceRef& surface, std::vector<OpenMesh::PolyMesh>& candidates) {
-  const FaceJudge judge(surface, candidates.front());
+int choose_unfolded(const SurfaceRef& surface, const ReferenceSurface& reference,
+                    std::vector<OpenMesh::PolyMesh>& candidates) {
+  const FaceJudge judge(reference, candidates.front());
   int best = -1;
   size_t least = std::numeric_limits<size_t>::max();
   for (int i = static_cast<int>(candidates.size()) - 1; i >= 0 && least > 0; --i) {
