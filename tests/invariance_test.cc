@@ -250,9 +250,14 @@ TEST_CASE("polygons follow a shape that is moved, turned, scaled or renumbered",
     if (!path) return skip(name);
     check_polygons(read_surface(*path), 0.001, 0, false);
   }
-  SECTION("a scan, fitted") {
+  SECTION("a scan, fitted and balanced") {
     const auto path = demo_mesh("elephant.off");
     if (!path) return skip("elephant.off");
     check_polygons(read_surface(*path), 0.001, 0, true);
+  }
+  SECTION("a scan with triangles that lie on one another, fitted and balanced at a number of faces") {
+    const auto path = demo_mesh("hand.off");
+    if (!path) return skip("hand.off");
+    check_polygons(read_surface(*path), 0, 1000, true);
   }
 }

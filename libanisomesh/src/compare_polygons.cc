@@ -39,17 +39,19 @@ double signed_area(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& 
   return 0.5 * dot(cross(b - a, c - a), normal);
 }
 
-/// Whether the ear at `ring[i]` is convex and holds no other corner of the ring.
+/// Whether the ear at `ring[i]` is convex and holds no other corner of the ring. A straight corner is no ear,
+/// and what leaves nothing but a straight corner is none either, on whichever side of it rounding puts them.
 bool is_ear(const std::vector<Vec3d>& corners, const std::vector<int>& ring, size_t i, const Vec3d& normal) {
   const size_t n = ring.size(), before = (i + n - 1) % n, after = (i + 1) % n;
   const auto at = [&](size_t k) { return corners[static_cast<size_t>(ring[k])]; };
   const Vec3d a = at(before), b = at(i), c = at(after);
-  if (signed_area(a, b, c, normal) <= 0) return false;
+  const double nothing = tie * std::max({(b - a).sqrnorm(), (c - b).sqrnorm(), (a - c).sqrnorm()});
+  if (signed_area(a, b, c, normal) <= nothing) return false;
   for (size_t k = 0; k < n; ++k) {
     if (k == before || k == i || k == after) continue;
     const Vec3d p = at(k);
-    if (signed_area(a, b, p, normal) >= 0 && signed_area(b, c, p, normal) >= 0 &&
-        signed_area(c, a, p, normal) >= 0)
+    if (signed_area(a, b, p, normal) >= -nothing && signed_area(b, c, p, normal) >= -nothing &&
+        signed_area(c, a, p, normal) >= -nothing)
       return false;
   }
   return true;

@@ -94,14 +94,16 @@ struct Thinning {
   double area = 0, step = 0, passed = 0, next = 0;
 
   void begin(double wanted) {
-    if (pieces > wanted) step = area / std::ceil(wanted);
+    wanted = std::ceil(wanted * (1 - kRounding));
+    if (pieces > wanted) step = area / wanted;
     next = 0.5 * step;
   }
   /// \return the area that it stands for; 0: it is left out
   double take(double piece) {
     if (!(step > 0)) return piece;
     double weight = 0;
-    for (passed += piece; next < passed; next += step) weight += step;
+    // Of equal pieces some end where the next one is to be taken.
+    for (passed += piece; next < passed - kRounding * area; next += step) weight += step;
     return weight;
   }
 };

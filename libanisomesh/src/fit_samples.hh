@@ -22,7 +22,7 @@ inline bool is_nearer(double squared, double than, double size) {
 
 /// Into how many parts the sides of a triangle are divided, so that no piece has more than its share.
 inline int divisions(double area, double share) {
-  return std::clamp(static_cast<int>(std::ceil(std::sqrt(area / share))), 1, max_divisions);
+  return std::clamp(static_cast<int>(std::ceil(std::sqrt(area / share) * (1 - kRounding))), 1, max_divisions);
 }
 
 /// Calls `visit` with the barycentric coordinates of the centres of n * n equal pieces.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "linear_field.hh"
+#include "rounding.hh"
 
 namespace anisomesh::detail {
 
@@ -17,6 +18,7 @@ size_t at(int i) { return static_cast<size_t>(i); }
 // Corners (0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0).
 constexpr std::array<std::array<int, 2>, 6> corner_pair{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 constexpr double least_damping = 1e-12;  // where no sample is
+constexpr double shortest = 0.05;        // side that is turned, of the size of a polygon
 
 size_t block_of(size_t k, size_t l) { return k == l ? k : 3 + (l == (k + 1) % 3 ? k : l); }
 
@@ -88,7 +90,8 @@ struct Pull {
 struct SideView {
   Vec6d tensor{0, 0, 0, 0, 0, 0};
   double weight = 0;
-  Vec3d normal{0, 0, 0};
+  Vec3d normal{0, 0, 0};  ///< sum by area
+  double area = 0;
 };
 
 SideView view_of(const FitMesh& mesh, const FitTriangles& triangles, const std::vector<TriangleForm>& forms,
@@ -102,6 +105,7 @@ SideView view_of(const FitMesh& mesh, const FitTriangles& triangles, const std::
         view.tensor += forms[t].tensor[k];
         view.weight += forms[t].side_weight[k];
         view.normal += triangles.area[t] * triangles.normal[t];
+        view.area += triangles.area[t];
       }
   }
   return view;
@@ -110,9 +114,9 @@ SideView view_of(const FitMesh& mesh, const FitTriangles& triangles, const std::
 // The nearer principal direction's companion: the part of the side along it is what turns it away. The sine
 // of the angle counts, not that part's length, or a short side across a long one would be turned for nothing.
 Pull turn_of(const FitMesh::Side& side, const SideView& view, double align_weight, Follow follow,
-             const std::vector<Vec3d>& points) {
+             double least_squared, const std::vector<Vec3d>& points) {
   const double up = view.normal.norm();
-  if (!(up > 0)) return {};
+  if (!(up > kRounding * view.area)) return {};  // one triangle lies on the other
   const Vec3d normal = view.normal / up;
   const TangentFrame frame(normal);
   const Orientation lines = orientation(followed(in_frame(view.tensor, frame), follow));
@@ -126,23 +130,24 @@ Pull turn_of(const FitMesh::Side& side, const SideView& view, double align_weigh
   // A diagonal of the network is turned to neither.
   const double diagonal = (a * a - b * b) / (length * length);
   const Vec3d& away = std::abs(a) > std::abs(b) ? second : first;
-  return {away, -(along | away), align_weight * view.weight * sure * diagonal * diagonal / (length * length)};
+  const double squared = std::max(length * length, least_squared);
+  return {away, -(along | away), align_weight * view.weight * sure * diagonal * diagonal / squared};
 }
 
 std::vector<Pull> turns_of(const FitMesh& mesh, const FitTriangles& triangles,
                            const std::vector<TriangleForm>& forms, double align_weight, Follow follow,
-                           const std::vector<Vec3d>& points) {
+                           double least_squared, const std::vector<Vec3d>& points) {
   std::vector<Pull> turns(mesh.sides.size());
   if (!(align_weight > 0)) return turns;
   tbb::parallel_for(size_t{0}, turns.size(), [&](size_t s) {
-    turns[s] = turn_of(mesh.sides[s], view_of(mesh, triangles, forms, s), align_weight, follow, points);
+    turns[s] = turn_of(mesh.sides[s], view_of(mesh, triangles, forms, s), align_weight, follow, least_squared,
+                       points);
   });
   return turns;
 }
 
 // How far quads leave their plane: the first and third corner count one way, the others the other way.
-std::vector<Pull> twists_of(const FitMesh& mesh, const std::vector<Vec3d>& points, double weight,
-                            double total_area) {
+std::vector<Pull> twists_of(const FitMesh& mesh, const std::vector<Vec3d>& points, double weight) {
   std::vector<Pull> twists(at(mesh.n_polygons()));
   tbb::parallel_for(0, mesh.n_polygons(), [&](int p) {
     if (mesh.degree(p) != 4) return;
@@ -152,7 +157,7 @@ std::vector<Pull> twists_of(const FitMesh& mesh, const std::vector<Vec3d>& point
     if (!(length > 0)) return;
     const Vec3d n = normal / length;
     const double twist = n | (points[at(c[0])] - points[at(c[1])] + points[at(c[2])] - points[at(c[3])]);
-    twists[at(p)] = {n, -twist, weight * 0.5 * length / total_area};
+    twists[at(p)] = {n, -twist, 0.5 * weight * length};
   });
   return twists;
 }
@@ -190,11 +195,10 @@ void add_surface_terms(const FitMesh& mesh, const FitTriangles& triangles, const
                        const FitOptions& options, double energy, FitSystem& system) {
   double area = 0;
   for (const double a : triangles.area) area += a;
-  const std::vector<Pull> twists =
-      twists_of(mesh, points, area > 0 ? options.planarity_weight : 0, std::max(area, least_damping));
+  const std::vector<Pull> twists = twists_of(mesh, points, area > 0 ? options.planarity_weight / area : 0);
   const std::vector<Pull> turns =
       turns_of(mesh, triangles, forms, input.tensor.empty() ? 0 : energy * options.alignment_weight,
-               input.follow, points);
+               input.follow, shortest * shortest * area / mesh.n_polygons(), points);
   system.fill([&](int v, FitSystem::Row& row) {
     for (int i = mesh.first_polygon[at(v)]; i < mesh.first_polygon[at(v) + 1]; ++i) {
       const int p = mesh.polygons[at(i)];
