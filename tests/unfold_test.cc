@@ -102,3 +102,73 @@ TEST_CASE("a concave quad is parted in two, where concave ones were not asked fo
   CHECK(detail::choose_unfolded(surface, detail::ReferenceSurface(surface), asked_for) == 1);
   CHECK(asked_for[1].n_faces() == 1);
 }
+
+namespace {
+
+/// Two squares, one above the other, both facing up.
+OpenMesh::TriMesh two_sheets() {
+  OpenMesh::TriMesh mesh;
+  for (const double z : {0.0, 0.1}) {
+    std::vector<OpenMesh::VertexHandle> v;
+    for (const Vec3d& p : {Vec3d(-1, -1, z), Vec3d(1, -1, z), Vec3d(1, 1, z), Vec3d(-1, 1, z)})
+      v.push_back(mesh.add_vertex(p));
+    mesh.add_face(v[0], v[1], v[2]);
+    mesh.add_face(v[0], v[2], v[3]);
+  }
+  return mesh;
+}
+
+/// The same as fans around their middles, the lower of which stands `high`.
+PolyMesh fans_over(double high) {
+  PolyMesh result;
+  const auto face = provide_property(result, property::source_face);
+  const auto barycentric = provide_property(result, property::source_barycentric);
+  const auto origin = provide_property(result, property::origin);
+  provide_property(result, property::edge_kind);
+  for (const int sheet : {0, 1}) {
+    const double z = 0.1 * sheet;
+    std::vector<OpenMesh::VertexHandle> v;
+    const auto add = [&](const Vec3d& p, int f, const Vec3d& b) {
+      v.push_back(result.add_vertex(p));
+      result.property(face, v.back()) = 2 * sheet + f;
+      result.property(barycentric, v.back()) = b;
+      result.property(origin, v.back()) = static_cast<int>(Origin::crossing);
+    };
+    add({-1, -1, z}, 0, {1, 0, 0});
+    add({1, -1, z}, 0, {0, 1, 0});
+    add({1, 1, z}, 0, {0, 0, 1});
+    add({-1, 1, z}, 1, {0, 0, 1});
+    add({0, 0, sheet == 0 ? high : z}, 0, {0.5, 0, 0.5});
+    for (size_t i = 0; i < 4; ++i) result.add_face(v[i], v[(i + 1) % 4], v[4]);
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a corner that went through another sheet goes back", "[unfold]") {
+  auto sheets = two_sheets();
+  for (const double high : {0.15, 0.3}) {  // half way back is enough, and is not
+    std::vector<PolyMesh> candidates{fans_over(0), fans_over(high)};
+    REQUIRE(compare(sheets, candidates[1]).self_intersecting_faces > 0);
+    CHECK(detail::choose_unfolded(sheets, detail::ReferenceSurface(SurfaceRef(sheets)), candidates) == 1);
+    CHECK(compare(sheets, candidates[1]).self_intersecting_faces == 0);
+    CHECK(compare(sheets, candidates[1]).folded_faces == 0);
+    CHECK(candidates[1].n_faces() == 8);
+  }
+}
+
+TEST_CASE("a pyramid through another sheet is parted anew", "[unfold]") {
+  auto sheets = two_sheets();  // built from where it stands, so that it has nowhere to go back to
+  PolyMesh up = fans_over(0.1);
+  const auto face = require_property(up, property::source_face);
+  const auto barycentric = require_property(up, property::source_barycentric);
+  up.property(face, OpenMesh::VertexHandle(4)) = 2;
+  up.set_point(OpenMesh::VertexHandle(9), {0.3, 0, 0.1});
+  up.property(barycentric, OpenMesh::VertexHandle(9)) = {0.35, 0.15, 0.5};
+  std::vector<PolyMesh> candidates{up};
+  REQUIRE(compare(sheets, up).self_intersecting_faces > 0);
+  CHECK(detail::choose_unfolded(sheets, detail::ReferenceSurface(SurfaceRef(sheets)), candidates) == 0);
+  CHECK(compare(sheets, candidates[0]).self_intersecting_faces == 0);
+  CHECK(candidates[0].n_faces() == 5);
+}

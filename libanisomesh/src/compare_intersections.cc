@@ -7,17 +7,24 @@
 
 namespace anisomesh::detail {
 
-void measure_intersections(const PolygonSoup& result, Comparison& comparison) {
+std::vector<std::pair<int, int>> crossing_triangles(const PolygonSoup& result) {
   const std::vector<int> place = merge_by_place(result.points);
   std::vector<Triangle> triangles = result.triangles;
   for (Triangle& corners : triangles)
     for (int& corner : corners) corner = place[static_cast<size_t>(corner)];
+  auto pairs = self_intersections(result.points, triangles);
+  const auto face_of = [&](int t) { return result.face_of[static_cast<size_t>(t)]; };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                             [&](const auto& pair) { return face_of(pair.first) == face_of(pair.second); }),
+              pairs.end());
+  return pairs;
+}
+
+void measure_intersections(const PolygonSoup& result, Comparison& comparison) {
   std::vector<char> found(result.faces.size(), 0);
-  for (const auto& [t, u] : self_intersections(result.points, triangles)) {
-    const auto a = static_cast<size_t>(result.face_of[static_cast<size_t>(t)]);
-    const auto b = static_cast<size_t>(result.face_of[static_cast<size_t>(u)]);
-    if (a != b) found[a] = found[b] = 1;
-  }
+  for (const auto& pair : crossing_triangles(result))
+    for (const int t : {pair.first, pair.second})
+      found[static_cast<size_t>(result.face_of[static_cast<size_t>(t)])] = 1;
   comparison.self_intersecting_faces = static_cast<size_t>(std::count(found.begin(), found.end(), 1));
 }
 

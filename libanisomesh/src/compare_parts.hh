@@ -24,6 +24,7 @@ struct ReferenceSurface {
 /// The result: its polygons, what is derived from each, and a triangulation to measure distances on.
 struct PolygonSoup {
   PolygonSoup(const OpenMesh::PolyMesh& mesh, FaceDiagonal diagonal);
+  PolygonSoup(std::vector<Vec3d> points, std::vector<std::vector<int>> faces, FaceDiagonal diagonal);
 
   std::vector<Vec3d> points;
   std::vector<std::vector<int>> faces;
@@ -33,6 +34,9 @@ struct PolygonSoup {
   std::vector<Triangle> triangles;
   std::vector<int> face_of;         // of each triangle
   std::vector<int> first_triangle;  // of each face, and one past the end
+
+ private:
+  void measure(FaceDiagonal diagonal);
 };
 
 /// Splits a polygon into triangles by cutting ears in its plane of best fit, the one with the shortest (or
@@ -51,6 +55,10 @@ std::vector<char> degenerate_faces(const PolygonSoup& result);
 /// Whether each face that has an area turns back at a corner by more than 5 degrees, in its plane of best
 /// fit.
 std::vector<char> concave_faces(const PolygonSoup& result);
+
+/// Pairs of triangles of different faces that have more in common than shared corners and sides; vertices in
+/// one place are one.
+std::vector<std::pair<int, int>> crossing_triangles(const PolygonSoup& result);
 
 // Each part fills its own fields of the comparison.
 void measure_distances(const ReferenceSurface& reference, const PolygonSoup& result,

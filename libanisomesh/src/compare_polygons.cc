@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "compare_parts.hh"
 
@@ -112,18 +113,22 @@ std::vector<Triangle> triangulate_polygon(const std::vector<Vec3d>& corners, con
 }
 
 PolygonSoup::PolygonSoup(const OpenMesh::PolyMesh& mesh, FaceDiagonal diagonal) {
-  for (const auto vertex : mesh.vertices()) {
-    const auto& p = mesh.point(vertex);
-    points.emplace_back(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
-  }
-  std::vector<Vec3d> corners;
+  for (const auto vertex : mesh.vertices()) points.push_back(mesh.point(vertex));
   for (const auto face : mesh.faces()) {
-    auto& indices = faces.emplace_back();
-    corners.clear();
-    for (const auto vertex : mesh.fv_range(face)) {
-      indices.push_back(vertex.idx());
-      corners.push_back(points[static_cast<size_t>(vertex.idx())]);
-    }
+    auto& corners = faces.emplace_back();
+    for (const auto vertex : mesh.fv_range(face)) corners.push_back(vertex.idx());
+  }
+  measure(diagonal);
+}
+
+PolygonSoup::PolygonSoup(std::vector<Vec3d> at, std::vector<std::vector<int>> of, FaceDiagonal diagonal)
+    : points(std::move(at)), faces(std::move(of)) {
+  measure(diagonal);
+}
+
+void PolygonSoup::measure(FaceDiagonal diagonal) {
+  for (size_t f = 0; f < faces.size(); ++f) {
+    const auto corners = corners_of(*this, f);
     const Vec3d area = area_vector(corners);
     const double length = area.norm();
     normals.push_back(length > 0 ? area / length : Vec3d(0, 0, 0));
@@ -131,9 +136,9 @@ PolygonSoup::PolygonSoup(const OpenMesh::PolyMesh& mesh, FaceDiagonal diagonal) 
     diameters.push_back(diameter_of(corners));
     first_triangle.push_back(static_cast<int>(triangles.size()));
     for (const Triangle& local : triangulate_polygon(corners, normals.back(), diagonal)) {
-      triangles.push_back({indices[static_cast<size_t>(local[0])], indices[static_cast<size_t>(local[1])],
-                           indices[static_cast<size_t>(local[2])]});
-      face_of.push_back(static_cast<int>(faces.size()) - 1);
+      const auto index = [&](int i) { return faces[f][static_cast<size_t>(i)]; };
+      triangles.push_back({index(local[0]), index(local[1]), index(local[2])});
+      face_of.push_back(static_cast<int>(f));
     }
   }
   first_triangle.push_back(static_cast<int>(triangles.size()));

@@ -50,6 +50,7 @@ class PatchMesh {
   bool may_replace(const Patch& patch, const std::vector<std::vector<int>>& pieces) const;
 
   int add_vertex(const Vec3d& point, const SurfacePoint& source);
+  void move(int v, const Vec3d& to) { vertices_[static_cast<size_t>(v)].point = to; }
   void replace(const Patch& patch, const std::vector<std::vector<int>>& pieces);
 
   /// The result with all its properties; vertices without a polygon are left out.
