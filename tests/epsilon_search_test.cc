@@ -20,6 +20,7 @@ struct MadeUp {
   bool only_near = false;  ///< results far from the target are but a count
   std::function<bool(double)> sound = [](double) { return false; };  ///< ... but those that are sound at once
   std::vector<double> asked;
+  double least = 0;           ///< no count is below
   double last = 0, kept = 0;  ///< epsilon
   int keeps = 0;
   double enough_below = 0, enough_above = 0;
@@ -35,7 +36,7 @@ struct MadeUp {
       last = epsilon;
       const double made = count(epsilon);
       const bool far = only_near && !any && std::abs(made / wanted - 1) > 0.3 && !sound(epsilon);
-      return detail::EpsilonSearch::Made{static_cast<size_t>(std::lround(made)), !far};
+      return detail::EpsilonSearch::Made{static_cast<size_t>(std::lround(made)), !far, made <= least};
     };
     steps.keep = [this] {
       kept = last;
@@ -55,6 +56,19 @@ TEST_CASE("where the count is what the density promises, the first epsilon meets
   CHECK(found.met);
   CHECK(found.attempts == 1);
   CHECK(made.kept == Approx(0.0018));
+}
+
+TEST_CASE("where there can be no fewer, a larger epsilon is not tried for fewer", "[epsilon_search]") {
+  MadeUp made;
+  made.least = 4000;
+  made.count = [](double) { return 4000; };
+  auto found = made.search(1000);
+  CHECK(found.attempts == 1);
+  CHECK(made.keeps == 1);
+  CHECK_FALSE(found.met);
+  made.count = [](double epsilon) { return std::max(4000.0, 1.8 / epsilon); };
+  found = made.search(5000);
+  CHECK(found.met);
 }
 
 TEST_CASE("a count that goes by another law is met all the same", "[epsilon_search]") {

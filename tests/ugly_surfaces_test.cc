@@ -181,6 +181,32 @@ TEST_CASE("scans with noise of half their edges and of four times as much come o
   }
 }
 
+TEST_CASE("pieces keep what they cannot do without, whatever is asked for", "[ugly]") {
+  std::mt19937 random(1);
+  const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
+  Soup soup;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3d at(uniform(), uniform(), uniform());
+    const int n = static_cast<int>(soup.points.size());
+    for (const Vec3d& p : {Vec3d(0, 0, 0), Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)})
+      soup.points.push_back(at + 0.01 * p);
+    soup.faces.push_back({n, n + 2, n + 1});
+    if (i % 3 == 0) continue;  // a triangle by itself
+    soup.faces.push_back({n, n + 1, n + 3});
+    soup.faces.push_back({n + 1, n + 2, n + 3});
+    soup.faces.push_back({n, n + 3, n + 2});
+  }
+  auto mesh = soup.read();
+  RemeshOptions options;
+  options.target_faces = 100;
+  RemeshReport report;
+  auto result = remesh(mesh, options, &report);
+  CHECK(report.attempts == 1);
+  CHECK_FALSE(report.target_met);
+  CHECK(result.n_faces() == 100 + 4 * 200);
+  CHECK(compare(mesh, result).same_topology);
+}
+
 TEST_CASE("long plates and needles of boxes are remeshed in a moment", "[ugly]") {
   const auto plate = box(1000, 10, 1);
   const auto c = remeshed(plate.read(), 1000);  // one vertex took in all others, in minutes

@@ -186,7 +186,7 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
     if (looks_farther) epsilon = std::min(kHighest, kLongStep * std::exp(trials.back().log_epsilon));
     while (is_refused(epsilon, refused) && !is_tried(epsilon, trials))
       epsilon = after_refusal(epsilon, trials);
-    const bool stuck = is_tried(epsilon, trials);
+    const bool stuck = is_tried(epsilon, trials) || (made.is_least && trials.back().log_ratio > 0);
     if (met || is_last || stuck || (stalled && !looks_farther) || (found.attempts >= 3 && best_off <= kMet))
       break;
   }

@@ -16,6 +16,7 @@ struct EpsilonSearch {
   struct Made {
     size_t count = 0;  ///< faces or vertices
     bool has_result = true;
+    bool is_least = false;  ///< no epsilon can give much less
   };
   /// Makes a result; unless one is wanted at `any` count, it may be the count alone where that is far from
   /// the target. \throw CannotProcess where there can be none with this epsilon

@@ -76,10 +76,12 @@ std::vector<Vec2d> separatrix_directions(const LinearField& field, const Umbilic
   std::vector<double> angles;
   constexpr int kSamples = 360;
   const double step = 2 * M_PI / kSamples;
+  bool high_negative = off_ray(0) < 0;
   for (int i = 0; i < kSamples; ++i) {
     double low = i * step, high = (i + 1) * step;
-    if ((off_ray(low) < 0) == (off_ray(high) < 0)) continue;
-    const bool low_negative = off_ray(low) < 0;
+    const bool low_negative = high_negative;
+    high_negative = off_ray(high) < 0;
+    if (low_negative == high_negative) continue;
     for (int k = 0; k < 40; ++k) {
       const double middle = 0.5 * (low + high);
       ((off_ray(middle) < 0) == low_negative ? low : high) = middle;

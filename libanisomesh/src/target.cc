@@ -33,6 +33,36 @@ constexpr double kEnoughBelow = 0.08, kEnoughAbove = 0.07;
 /// characteristic.
 constexpr double kFacesLeft = 1.1;
 
+/// So many times the vertices that there have to be, no other epsilon need be tried for fewer.
+constexpr double kHardlyMore = 1.05;
+
+/// What the components alone need, however coarse: tetrahedra, and triangles of those with a border.
+size_t least_vertices(const OpenMesh::TriConnectivity& mesh) {
+  std::vector<char> seen(mesh.n_faces(), 0);
+  std::vector<OpenMesh::FaceHandle> open;
+  size_t count = 0;
+  const auto reach = [&](OpenMesh::FaceHandle f) {
+    if (seen[static_cast<size_t>(f.idx())]) return;
+    seen[static_cast<size_t>(f.idx())] = 1;
+    open.push_back(f);
+  };
+  for (const auto start : mesh.all_faces()) {
+    if (seen[static_cast<size_t>(start.idx())]) continue;
+    bool closed = true;
+    for (reach(start); !open.empty();) {
+      const auto f = open.back();
+      open.pop_back();
+      for (const auto h : mesh.fh_range(f)) {
+        const auto across = mesh.opposite_halfedge_handle(h);
+        closed = closed && !mesh.is_boundary(across);
+        if (!mesh.is_boundary(across)) reach(mesh.face_handle(across));
+      }
+    }
+    count += closed ? 4 : 3;
+  }
+  return count;
+}
+
 /// The number of crossings that the density asks for: one for each rectangle of the two spacings.
 class CrossingModel {
  public:
@@ -167,6 +197,7 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   if (wanted == 0) return finish(run(0, 1, true).mesh);
 
   const CrossingModel model(surface, trace.density);
+  const size_t least = least_vertices(connectivity);
   OpenMesh::PolyMesh last, best;
   TraceAndMeshReport of_best;
   LineNetwork lines_of_best;
@@ -182,7 +213,9 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     ++made;
     auto attempt = run(1 - std::pow(0.6, made - 1), 1 - std::pow(0.6, made), any);
     last = std::move(attempt.mesh);
-    return detail::EpsilonSearch::Made{count_of(done.mesh.vertices, done.mesh.faces), attempt.sound};
+    return detail::EpsilonSearch::Made{
+        count_of(done.mesh.vertices, done.mesh.faces), attempt.sound,
+        static_cast<double>(done.mesh.vertices) <= kHardlyMore * static_cast<double>(least)};
   };
   search.keep = [&] {
     best = std::move(last);
