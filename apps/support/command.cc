@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "anisomesh/errors.hh"
 #include "anisomesh/io.hh"
@@ -37,6 +39,53 @@ std::string one_line(std::string text) {
   for (char& c : text)
     if (c == '\n') c = ' ';
   return text;
+}
+
+/// The library's messages name its functions and fields; who calls an app knows apps and options.
+std::string in_words_of_apps(std::string message) {
+  static const std::vector<std::pair<std::string, std::string>> words{
+      {"run estimate_curvature()", "run anisomesh-estimate"},
+      {"run flatten()", "run anisomesh-flatten"},
+      {"run smooth_tensors()", "run anisomesh-flatten"},
+      {"run find_umbilics()", "run anisomesh-flatten"},
+      {"run trace_lines()", "run anisomesh-trace"},
+      {"target_faces", "--target-faces"},
+      {"target_vertices", "--target-vertices"},
+      {"epsilon_fraction", "--epsilon"},
+      {"max_spacing_fraction", "--max-spacing"},
+      {"max_slope", "--max-slope"},
+      {"stop_fraction", "--stop-fraction"},
+      {"seed_fraction", "--seed-fraction"},
+      {"min_crossings", "--min-crossings"},
+      {"relax_passes", "--relax-passes"},
+      {"max_edges of a hole", "--fill-holes"},
+      {"corner_angle_degrees", "--corner-angle"},
+      {"angle_degrees", "--feature-angle"},
+      {"smoothing iterations are", "--smoothing is"},
+      {"smoothing radius_fraction", "--smoothing-radius"},
+      {"radius_fraction", "--radius"},
+      {"max_area_stretch of charts", "--max-area-stretch"},
+      {"crease_weight of charts", "--crease-weight"},
+      {"max_degree", "--max-degree"},
+      {"chain_tolerance", "--chain-tolerance"},
+      {"cell_tolerance", "--cell-tolerance"},
+      {"alignment_weight", "--alignment-weight"},
+      {"feature_tolerance", "--feature-tolerance"},
+      {"merge_fraction", "--merge-fraction"},
+      {"max_bend_degrees", "--max-bend"},
+      {"fit.passes", "--fit-passes"},
+      {"balance.rounds", "--balance"},
+      {"max_error_fraction", "--max-error"},
+  };
+  for (const auto& [word, said] : words)
+    for (size_t at = 0; (at = message.find(word, at)) != std::string::npos; at += said.size())
+      message.replace(at, word.size(), said);
+  return message;
+}
+
+/// CLI11 makes 18446744073709551615 of -1.
+std::string refuse_negative(const std::string& text) {
+  return text.rfind('-', 0) == 0 ? "'" + text + "' must not be negative" : std::string();
 }
 
 }  // namespace
@@ -87,6 +136,8 @@ void Command::optional_output(std::string& path, const std::string& help) {
 
 int Command::run(int argc, char* argv[], const std::function<void()>& work) {
   add_general_options();
+  for (auto* option : app_->get_options())
+    if (option->get_type_name() == "N") option->check(refuse_negative);
   try {
     app_->parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -144,13 +195,20 @@ int Command::work_and_report(const std::function<void()>& work) {
 }
 
 int Command::fail(int code, const std::string& message, bool about_input) const {
-  const auto begins_with = [&](const std::string* path) {
-    return path && message.rfind(*path + ":", 0) == 0;
-  };
-  const bool named = begins_with(input_) || begins_with(output_) || begins_with(&json_path_);
-  std::cerr << name_ << ": " << (about_input && !named && input_ ? *input_ + ": " : "") << one_line(message)
-            << "\n";
+  const bool names_input = about_input && input_ && !names_a_file(message);
+  const bool of_library = code == exit_usage || message.find("() first") != std::string::npos;
+  const std::string line = one_line(message);
+  std::cerr << name_ << ": " << (names_input ? *input_ + ": " : "")
+            << (of_library ? in_words_of_apps(line) : line) << "\n";
   return code;
+}
+
+/// Whether the message is about a file that was given.
+bool Command::names_a_file(const std::string& message) const {
+  for (const auto* option : app_->get_options())
+    for (const auto& word : option->results())
+      if (message.rfind(word + ":", 0) == 0) return true;
+  return false;
 }
 
 anisomesh::Progress Command::progress(const std::string& what) {
@@ -181,6 +239,11 @@ Json Command::options() const {
 
 void Command::say(const std::string& line) const {
   if (!quiet_ && json_path_ != "-") std::cout << line << "\n";
+}
+
+void Command::warn_unless_om(const std::string& path) const {
+  if (path.size() < 3 || path.compare(path.size() - 3, 3, ".om") != 0)
+    warn(path + " holds the bare surface: only .om keeps what this stage has found, for the next one");
 }
 
 void Command::warn(const std::string& line) const {

@@ -59,6 +59,8 @@ class Command {
   void fail_at_end(const std::string& message) { failure_ = message; }
   /// A line on stderr, unless --quiet.
   void warn(const std::string& line) const;
+  /// Warns that a stage's results are lost with this ending.
+  void warn_unless_om(const std::string& path) const;
   /// What --json writes.
   Json& report() { return *report_; }
 
@@ -66,6 +68,7 @@ class Command {
   void add_general_options();
   int work_and_report(const std::function<void()>& work);
   int fail(int code, const std::string& message, bool about_input = false) const;
+  bool names_a_file(const std::string& message) const;
 
   std::string name_;
   std::unique_ptr<CLI::App> app_;

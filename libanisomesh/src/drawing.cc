@@ -44,7 +44,8 @@ class SurfaceDrawing final : public Drawing {
         lines_(lines),
         corner_angle_(corner_angle),
         locator_(surface),
-        tolerance_(tolerance) {
+        tolerance_(tolerance),
+        breathe_(breathe) {
     const Overlay overlay = overlay_lines(surface, lines, corner_angle);
     breathe();
     network_ = network_of(surface, normals, overlay);
@@ -58,7 +59,7 @@ class SurfaceDrawing final : public Drawing {
                           DecimationReport& report) const override {
     MeshEmbedding embedding = embedding_for(network);
     report = decimate(network, embedding, options);
-    embedding.coarsen(network, tolerance_);
+    embedding.coarsen(network, tolerance_, breathe_);
     embedding.flip(network);
     return surface_cells(network, surface_, embedding, probes);
   }
@@ -69,7 +70,7 @@ class SurfaceDrawing final : public Drawing {
     const auto is_kept = [](double share) { return share <= kept_share; };
     if (std::none_of(network.share.begin(), network.share.end(), is_kept)) return *embedding_;
     MeshEmbedding embedding(surface_, overlay_lines(surface_, lines_, corner_angle_), network);
-    embedding.coarsen(network, tolerance_);
+    embedding.coarsen(network, tolerance_, breathe_);
     return embedding;
   }
 
@@ -78,6 +79,7 @@ class SurfaceDrawing final : public Drawing {
   double corner_angle_;
   NearLocator locator_;
   double tolerance_;
+  std::function<void()> breathe_;
   NetworkGraph network_;
   std::unique_ptr<MeshEmbedding> embedding_;
 };

@@ -185,12 +185,13 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
       detail::recorded(surface.connectivity(), property::epsilon, std::numeric_limits<double>::infinity());
 
   const detail::SurfaceNormals normals(surface);
+  double reached = 0;  // said again and again, so that it can be cancelled
   const auto drawing =
       detail::make_drawing(surface, normals, lines, options.corner_angle_degrees,
-                           options.cell_tolerance * epsilon, [&progress] { report_progress(progress, 0); });
+                           options.cell_tolerance * epsilon, [&] { report_progress(progress, reached); });
   local.crossings = drawing->network().crossings;
   local.arrangement_seconds = stopwatch.lap();
-  report_progress(progress, 0.4);
+  report_progress(progress, reached = 0.4);
 
   const double chain_tolerance = options.chain_tolerance * epsilon,
                feature_tolerance = options.feature_tolerance * surface.diagonal();

@@ -33,6 +33,8 @@ constexpr double kEnoughBelow = 0.08, kEnoughAbove = 0.07;
 /// characteristic.
 constexpr double kFacesLeft = 1.1;
 
+constexpr size_t most_wanted = 10'000'000;  // more than memory holds
+
 /// So many times the vertices that there have to be, no other epsilon need be tried for fewer.
 constexpr double kHardlyMore = 1.05;
 
@@ -135,6 +137,11 @@ class CrossingModel {
 void TargetOptions::validate() const {
   if (target_faces > 0 && target_vertices > 0)
     throw InvalidOption("target_faces and target_vertices exclude each other: give one");
+  const size_t most = std::max(target_faces, target_vertices);
+  if (most > most_wanted)
+    throw InvalidOption((target_faces > 0 ? "target_faces" : "target_vertices") +
+                        std::string(" must be at most ") + std::to_string(most_wanted) + ", but is " +
+                        std::to_string(most));
   if (!(tolerance > 0 && tolerance < 1))
     throw InvalidOption("tolerance must be above 0 and below 1, but is " + std::to_string(tolerance));
   if (max_attempts < 1)

@@ -19,7 +19,7 @@ namespace {
 constexpr double seed_fraction_by_epsilon = 0.7, cell_tolerance_by_epsilon = 2;
 
 // Near umbilics lines are too close for even gaps to buy anything. [docs/lines.md]
-constexpr size_t passes_without_umbilics = 5;
+constexpr size_t passes_without_umbilics = 5, most_passes = 1000;
 
 Line as_line(const detail::TracedLine& traced, LineKind kind) {
   Line line;
@@ -56,6 +56,9 @@ void TraceOptions::validate() const {
                         std::to_string(seed_fraction));
   if (!(min_crossings >= 0))
     throw InvalidOption("min_crossings must not be negative, but is " + std::to_string(min_crossings));
+  if (relax_passes.value_or(0) > most_passes)
+    throw InvalidOption("relax_passes must be at most " + std::to_string(most_passes) + ", but is " +
+                        std::to_string(*relax_passes));
 }
 
 TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& given, const Progress& progress) {

@@ -108,9 +108,14 @@ usage)
   expect 2 "--nonsense" anisomesh-remesh dome.off -o x.obj --nonsense
   expect 2 "epsilon" anisomesh-remesh dome.off -o x.obj --epsilon 0
   expect 2 "rho" anisomesh-remesh dome.off -o x.obj --rho 1.5
-  expect 2 "max_degree" anisomesh-remesh dome.off -o x.obj --max-degree 2
+  expect 2 "anisomesh-remesh: --max-degree is" anisomesh-remesh dome.off -o x.obj --max-degree 2
   expect 2 "--target" anisomesh-remesh dome.off -o x.obj --target-faces 100 --target-vertices 100
   expect 2 "radius" anisomesh-remesh dome.off -o x.obj --radius=-1
+  for option in target-faces target-vertices fill-holes relax-passes smoothing seed balance; do
+    expect 2 "--$option: '-3' must not be negative" anisomesh-remesh dome.off -o x.obj "--$option" -3
+  done
+  expect 2 "target-faces must be at most" anisomesh-remesh dome.off -o x.obj --target-faces 1000000000
+  expect 2 "relax-passes must be at most" anisomesh-remesh dome.off -o x.obj --relax-passes 1000000
   anisomesh-estimate -q dome.off -o auto.om --radius auto
   expect 2 "ten" anisomesh-remesh dome.off -o x.obj --smoothing ten
   expect 2 "normal-cycle" anisomesh-remesh dome.off -o x.obj --estimator guess
@@ -192,10 +197,12 @@ bad_input)
   in_plane annulus.off
   # stages out of order
   anisomesh-shapes -q dome --vertices 100 -o dome.om
-  for app in flatten trace mesh; do expect 3 "run " "anisomesh-$app" dome.om -o here/out.obj; done
+  for app in flatten trace mesh; do expect 3 "run anisomesh-" "anisomesh-$app" dome.om -o here/out.obj; done
   # a feature file that names what is not there
   printf '0 99999\n' >edges.txt
   expect 3 "99999" anisomesh-remesh dome.off -o here/out.obj --feature-file edges.txt
+  expect 3 "anisomesh-remesh: none.txt: cannot be read" anisomesh-remesh dome.off -o here/out.obj --feature-file none.txt
+  expect 3 "anisomesh-compare: none.obj: cannot be read" anisomesh-compare dome.off none.obj
   only out.obj
   [ "$(cat here/out.obj)" = old ] || fail "a run that failed harmed the file that was there"
   ;;

@@ -57,7 +57,7 @@ struct TraceOptions {
   double min_crossings = 1.5;  ///< a shorter line, in spacings of the other kind, is dropped; >= 0
   /// Passes over all lines after they are placed, in which each is moved, shortened or lengthened so that
   /// gaps are within 25 % of what is wanted over most of the surface. 0: lines stay where they were placed.
-  /// None given: 5 where epsilon is given and there is no umbilic, else 0
+  /// None given: 5 where epsilon is given and there is no umbilic, else 0; at most 1,000
   std::optional<size_t> relax_passes;
   unsigned seed = 1;      ///< of the random coverage check
   void validate() const;  ///< \throw InvalidOption
