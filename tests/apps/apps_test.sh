@@ -170,7 +170,7 @@ holes)
   printf '3 5\n1 5\n' >edges.txt
   anisomesh-estimate -q holes.off -o features.om --fill-holes 3 --feature-file edges.txt --json features.json
   grep -q '"feature_edges": *2' features.json || fail "features after filling"
-  expect 2 "max_edges" anisomesh-remesh holes.off -o x.obj --fill-holes 2
+  expect 2 "--fill-holes is" anisomesh-remesh holes.off -o x.obj --fill-holes 2
   ;;
 
 bad_input)
