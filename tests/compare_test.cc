@@ -264,6 +264,24 @@ TEST_CASE("folded faces are counted", "[compare]") {
     auto result = quad_grid(4, 1, [](double u, double v) { return Vec3d(u == 0.5 ? 0.8 : u, v, 0); });
     CHECK(compare(reference, result).folded_faces == 1);
   }
+  SECTION("one quad drawn over its neighbour on a plate whose other side is near") {
+    const auto plate = [](int n, double middle) {
+      auto mesh = quad_grid(n, 1, [&](double u, double v) { return Vec3d(u == 0.5 ? middle : u, v, 0); });
+      const auto below = quad_grid(n, 1, [](double u, double v) { return Vec3d(v, u, -0.02); });
+      std::vector<OpenMesh::VertexHandle> there;
+      for (const auto v : below.vertices()) there.push_back(mesh.add_vertex(below.point(v)));
+      for (const auto f : below.faces()) {
+        std::vector<OpenMesh::VertexHandle> corners;
+        for (const auto v : f.vertices()) corners.push_back(there[static_cast<size_t>(v.idx())]);
+        mesh.add_face(corners);
+      }
+      return mesh;
+    };
+    auto sides = triangulated(plate(10, 0.5));
+    auto right = plate(4, 0.5), wrong = plate(4, 0.8);
+    CHECK(compare(sides, right).folded_faces == 0);
+    CHECK(compare(sides, wrong).folded_faces == 1);
+  }
 }
 
 TEST_CASE("faces that cross or overlap others are counted", "[compare]") {

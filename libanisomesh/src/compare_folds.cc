@@ -15,37 +15,67 @@ namespace {
 /// Two neighbours lie folded onto each other when their normals differ by more than 170 degrees.
 const double folded_cosine = std::cos(170.0 / 180 * 3.14159265358979323846);
 
+double cosine(const ReferenceSurface& reference, int triangle, const Vec3d& normal) {
+  return dot(reference.normals[static_cast<size_t>(triangle)], normal);
+}
+
 /// Whether the reference around p faces the other way than `normal`, everywhere within reach. A thin ear, a
 /// nostril or a deep valley has both sides nearby, and a face on one of them whose nearest point happens to
 /// be on the other is no fold.
-bool is_against(const ReferenceSurface& reference, const Vec3d& p, const Vec3d& normal, double diameter) {
-  const auto agrees = [&](int triangle) {
-    return dot(reference.normals[static_cast<size_t>(triangle)], normal) > at_right_angles;
-  };
+bool is_against(const ReferenceSurface& reference, const Vec3d& p, const Vec3d& normal,
+                const FoldReach& reach) {
+  const auto agrees = [&](int triangle) { return cosine(reference, triangle, normal) > at_right_angles; };
   const ClosestPoint nearest = reference.tree.closest(p);
   if (agrees(nearest.triangle)) return false;
-  const double limit = std::sqrt(nearest.squared_distance) + reach * diameter;
+  const double limit =
+      std::sqrt(nearest.squared_distance) + reach.beyond(cosine(reference, nearest.triangle, normal));
   return reference.tree.closest_if(p, limit * limit, agrees).triangle < 0;
 }
 
-/// Whether the face is against the reference at most of its samples: four in each of its triangles.
-bool is_turned_over(const ReferenceSurface& reference, const PolygonSoup& result, size_t face) {
+/// Four places in each triangle of a face.
+std::vector<Vec3d> samples_of(const PolygonSoup& result, size_t face) {
   static const double weights[4][3] = {{1.0 / 3, 1.0 / 3, 1.0 / 3},
                                        {2.0 / 3, 1.0 / 6, 1.0 / 6},
                                        {1.0 / 6, 2.0 / 3, 1.0 / 6},
                                        {1.0 / 6, 1.0 / 6, 2.0 / 3}};
-  int samples = 0, against = 0;
+  std::vector<Vec3d> samples;
   for (int t = result.first_triangle[face]; t < result.first_triangle[face + 1]; ++t) {
     const Triangle& corner = result.triangles[static_cast<size_t>(t)];
-    for (const auto& w : weights) {
-      const Vec3d p = w[0] * result.points[static_cast<size_t>(corner[0])] +
-                      w[1] * result.points[static_cast<size_t>(corner[1])] +
-                      w[2] * result.points[static_cast<size_t>(corner[2])];
-      ++samples;
-      against += is_against(reference, p, result.normals[face], result.diameters[face]) ? 1 : 0;
-    }
+    for (const auto& w : weights)
+      samples.push_back(w[0] * result.points[static_cast<size_t>(corner[0])] +
+                        w[1] * result.points[static_cast<size_t>(corner[1])] +
+                        w[2] * result.points[static_cast<size_t>(corner[2])]);
   }
-  return 2 * against > samples;
+  return samples;
+}
+
+/// Largest distance of a face's samples from the reference, and whether most of them have something nearest
+/// that faces elsewhere.
+struct FaceFeet {
+  double distance = 0;
+  bool suspicious = false;
+};
+
+FaceFeet feet_of(const ReferenceSurface& reference, const PolygonSoup& result, size_t face) {
+  const std::vector<Vec3d> samples = samples_of(result, face);
+  size_t against = 0;
+  FaceFeet feet;
+  for (const Vec3d& p : samples) {
+    const ClosestPoint nearest = reference.tree.closest(p);
+    feet.distance = std::max(feet.distance, std::sqrt(nearest.squared_distance));
+    against += cosine(reference, nearest.triangle, result.normals[face]) > at_right_angles ? 0 : 1;
+  }
+  feet.suspicious = 2 * against > samples.size();
+  return feet;
+}
+
+/// Whether the face is against the reference at most of its samples.
+bool is_turned_over(const ReferenceSurface& reference, const PolygonSoup& result, size_t face,
+                    const FoldReach& reach) {
+  const std::vector<Vec3d> samples = samples_of(result, face);
+  size_t against = 0;
+  for (const Vec3d& p : samples) against += is_against(reference, p, result.normals[face], reach) ? 1 : 0;
+  return 2 * against > samples.size();
 }
 
 struct InnerEdge {
@@ -72,12 +102,26 @@ std::vector<InnerEdge> inner_edges(const PolygonSoup& result) {
 }  // namespace
 
 std::vector<char> folded_faces(const ReferenceSurface& reference, const PolygonSoup& result) {
-  std::vector<char> folded(result.faces.size(), 0);
+  const size_t n = result.faces.size();
+  std::vector<char> folded(n, 0);
   const std::vector<char> degenerate = degenerate_faces(result);
-  tbb::parallel_for(size_t{0}, result.faces.size(), [&](size_t face) {
-    folded[face] = !degenerate[face] && is_turned_over(reference, result, face) ? 1 : 0;
+  std::vector<FaceFeet> feet(n);
+  tbb::parallel_for(size_t{0}, n, [&](size_t face) { feet[face] = feet_of(reference, result, face); });
+  const std::vector<InnerEdge> edges = inner_edges(result);
+  // A face may be as near the wrong side of a thin sheet by chance; its neighbours are not.
+  std::vector<double> distance;
+  for (const FaceFeet& f : feet) distance.push_back(f.distance);
+  for (const InnerEdge& edge : edges) {
+    const auto left = static_cast<size_t>(edge.left), right = static_cast<size_t>(edge.right);
+    distance[left] = std::max(distance[left], feet[right].distance);
+    distance[right] = std::max(distance[right], feet[left].distance);
+  }
+  const auto reach_of = [&](size_t face) { return FoldReach(result.diameters[face], distance[face]); };
+  tbb::parallel_for(size_t{0}, n, [&](size_t face) {
+    if (degenerate[face] || !feet[face].suspicious) return;
+    folded[face] = is_turned_over(reference, result, face, reach_of(face)) ? 1 : 0;
   });
-  for (const InnerEdge& edge : inner_edges(result)) {
+  for (const InnerEdge& edge : edges) {
     const auto left = static_cast<size_t>(edge.left), right = static_cast<size_t>(edge.right);
     if (degenerate[left] || degenerate[right]) continue;
     if (dot(result.normals[left], result.normals[right]) > folded_cosine) continue;
@@ -85,7 +129,7 @@ std::vector<char> folded_faces(const ReferenceSurface& reference, const PolygonS
         0.5 * (result.points[static_cast<size_t>(edge.from)] + result.points[static_cast<size_t>(edge.to)]);
     // The reference may be as sharp here (the rim of an ear): then it shows both sides within reach.
     for (const size_t face : {left, right})
-      if (is_against(reference, middle, result.normals[face], result.diameters[face])) folded[face] = 1;
+      if (is_against(reference, middle, result.normals[face], reach_of(face))) folded[face] = 1;
   }
   return folded;
 }

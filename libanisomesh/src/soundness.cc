@@ -9,7 +9,6 @@
 #include "anisomesh/errors.hh"
 #include "compare_parts.hh"
 #include "conforming.hh"
-#include "fold_limits.hh"
 #include "numerics/bvh.hh"
 
 namespace anisomesh::detail {
@@ -129,55 +128,74 @@ PolygonAdjacency adjacency_of(const std::vector<Polygon>& polygons, const Networ
 
 // Whether the surface around a place faces the other way than `normal`, everywhere within reach. Where it is
 // more tightly curled than the polygons are large, a polygon that stands for both sides is no fold.
-bool Soundness::is_against(const Vec2d& uv, OpenMesh::FaceHandle start, const Vec3d& place,
-                           const Vec3d& normal, double diameter) const {
+bool Soundness::is_against(const Place& place, const Vec3d& normal, const FoldReach& reach) const {
   const auto& mesh = surface_.connectivity();
-  const SurfacePoint below = locator_.locate(uv, place, start);
-  const double limit = (position(surface_, below) - place).norm() + reach * diameter;
-  std::vector<OpenMesh::FaceHandle> found{below.face};
-  std::unordered_set<int> seen{below.face.idx()};
-  double nearest = std::numeric_limits<double>::infinity(), nearest_right = nearest;
+  const double limit = distance_below(place) + reach.far;
+  const auto below = locator_.locate(place.uv, place.point, place.start).face;
+  std::vector<OpenMesh::FaceHandle> found{below};
+  std::unordered_set<int> seen{below.idx()};
+  double nearest = std::numeric_limits<double>::infinity(), nearest_right = nearest, cosine = 1;
   for (size_t i = 0; i < found.size(); ++i) {
     const auto c = surface_.corners(found[i]);
     const Vec3d &p = surface_.point(c.vertex[0]), &q = surface_.point(c.vertex[1]),
                 &r = surface_.point(c.vertex[2]);
-    const Vec3d b = closest_barycentric(place, p, q, r);
-    const double distance = (b[0] * p + b[1] * q + b[2] * r - place).norm();
+    const Vec3d b = closest_barycentric(place.point, p, q, r);
+    const double distance = (b[0] * p + b[1] * q + b[2] * r - place.point).norm();
     if (distance > limit) continue;
-    nearest = std::min(nearest, distance);
     const Vec3d n = cross(q - p, r - p);
-    if ((n | normal) > at_right_angles * n.norm() * normal.norm()) {
-      if (distance <= reach * diameter) return false;
+    const double length = n.norm() * normal.norm();
+    if (distance < nearest) nearest = distance, cosine = length > 0 ? (n | normal) / length : 0;
+    if ((n | normal) > at_right_angles * length) {
+      if (distance <= reach.near) return false;
       nearest_right = std::min(nearest_right, distance);
     }
     for (const auto f : mesh.ff_range(found[i]))
       if (seen.insert(f.idx()).second) found.push_back(f);
   }
-  return nearest_right > nearest + reach * diameter;
+  return nearest_right > nearest + reach.beyond(cosine);
 }
 
-// Turned over against the surface at more than half of a few places in it.
-bool Soundness::is_folded(const Polygon& polygon, const NetworkGraph& network, const Vec3d& normal) const {
+double Soundness::distance_below(const Place& place) const {
+  return (position(surface_, locator_.locate(place.uv, place.point, place.start)) - place.point).norm();
+}
+
+// Four in each of the ruler's triangles: a bent quad may be right on those of the one diagonal only.
+std::vector<Soundness::Place> Soundness::places_in(const Polygon& polygon,
+                                                   const NetworkGraph& network) const {
   static const double weights[4][3] = {{1.0 / 3, 1.0 / 3, 1.0 / 3},
                                        {2.0 / 3, 1.0 / 6, 1.0 / 6},
                                        {1.0 / 6, 2.0 / 3, 1.0 / 6},
                                        {1.0 / 6, 1.0 / 6, 2.0 / 3}};
-  int against = 0, samples = 0;
-  // The ruler's triangles: a bent quad may be right on those of the one diagonal only.
-  const auto triangles = triangulate_polygon(positions_of(polygon, network), normal, FaceDiagonal::shorter);
-  for (const Triangle& corner : triangles) {
-    const auto mean = [&](const auto& of, const double* w) {
-      return w[0] * of(polygon[at(corner[0])]) + w[1] * of(polygon[at(corner[1])]) +
-             w[2] * of(polygon[at(corner[2])]);
-    };
+  std::vector<Place> places;
+  const Vec3d area = area_vector(polygon, network);
+  const double length = area.norm();
+  for (const Triangle& corner : triangulate_polygon(positions_of(polygon, network),
+                                                    length > 0 ? area / length : area, FaceDiagonal::shorter))
     for (const auto& w : weights) {
-      ++samples;
-      against += is_against(
-          mean([&](int n) { return network.graph.uv(n); }, w), network.points[at(polygon[0])].face,
-          mean([&](int n) { return network.positions[at(n)]; }, w), normal, diameter_of(polygon, network));
+      const auto mean = [&](const auto& of) {
+        return w[0] * of(polygon[at(corner[0])]) + w[1] * of(polygon[at(corner[1])]) +
+               w[2] * of(polygon[at(corner[2])]);
+      };
+      places.push_back({mean([&](int n) { return network.graph.uv(n); }),
+                        mean([&](int n) { return network.positions[at(n)]; }),
+                        network.points[at(polygon[0])].face});
     }
-  }
-  return 2 * against > samples;
+  return places;
+}
+
+FoldReach Soundness::reach_of(const Polygon& polygon, const NetworkGraph& network) const {
+  double distance = 0;
+  for (const Place& place : places_in(polygon, network)) distance = std::max(distance, distance_below(place));
+  return {diameter_of(polygon, network), distance};
+}
+
+// Turned over against the surface at more than half of a few places in it.
+bool Soundness::is_folded(const Polygon& polygon, const NetworkGraph& network, const Vec3d& normal) const {
+  const std::vector<Place> places = places_in(polygon, network);
+  const FoldReach reach = reach_of(polygon, network);
+  size_t against = 0;
+  for (const Place& place : places) against += is_against(place, normal, reach) ? 1 : 0;
+  return 2 * against > places.size();
 }
 
 // A triangle of the input is as sound as the input is.
@@ -225,11 +243,11 @@ std::vector<int> Soundness::unsound(const std::vector<Polygon>& polygons, const 
       const Vec3d n = area_vector(polygons[p], network), m = area_vector(polygons[at(q)], network);
       if ((n | m) > folded_cosine * n.norm() * m.norm()) continue;
       const int a = polygons[p][i], b = polygons[p][(i + 1) % polygons[p].size()];
-      const Vec2d middle = 0.5 * (network.graph.uv(a) + network.graph.uv(b));
-      const Vec3d place = 0.5 * (network.positions[at(a)] + network.positions[at(b)]);
-      bad[p] |= is_against(middle, network.points[at(a)].face, place, n, diameter_of(polygons[p], network));
-      bad[at(q)] |=
-          is_against(middle, network.points[at(a)].face, place, m, diameter_of(polygons[at(q)], network));
+      const Place middle{0.5 * (network.graph.uv(a) + network.graph.uv(b)),
+                         0.5 * (network.positions[at(a)] + network.positions[at(b)]),
+                         network.points[at(a)].face};
+      bad[p] |= is_against(middle, n, reach_of(polygons[p], network));
+      bad[at(q)] |= is_against(middle, m, reach_of(polygons[at(q)], network));
     }
   std::vector<int> result;
   for (size_t p = 0; p < polygons.size(); ++p)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coincident_sides.hh"
+#include "fold_limits.hh"
 #include "network_graph.hh"
 #include "polygon_adjacency.hh"
 #include "polygon_judge.hh"
@@ -32,8 +33,15 @@ class Soundness {
   bool is_of_input(const std::vector<int>& polygon, const NetworkGraph& network) const;
   bool is_sound(const std::vector<int>& polygon, const NetworkGraph& network) const;
   bool is_folded(const std::vector<int>& polygon, const NetworkGraph& network, const Vec3d& normal) const;
-  bool is_against(const Vec2d& uv, OpenMesh::FaceHandle start, const Vec3d& place, const Vec3d& normal,
-                  double diameter) const;
+  struct Place {
+    Vec2d uv;
+    Vec3d point;
+    OpenMesh::FaceHandle start;  ///< where to begin to look for it
+  };
+  std::vector<Place> places_in(const std::vector<int>& polygon, const NetworkGraph& network) const;
+  double distance_below(const Place& place) const;
+  FoldReach reach_of(const std::vector<int>& polygon, const NetworkGraph& network) const;
+  bool is_against(const Place& place, const Vec3d& normal, const FoldReach& reach) const;
   std::vector<int> unsound(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
                            bool or_touching) const;
   const std::vector<int>* cheapest(const std::vector<std::vector<int>>& paths,
