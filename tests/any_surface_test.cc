@@ -366,6 +366,51 @@ TEST_CASE("a sample that turns a triangle over beside a hole is not taken a seco
   check_sound(compared(mesh, result));
 }
 
+namespace {
+
+/// The share of the length of tagged edges within 0.05 % of the diagonal of feature edges of the result.
+double covered_share(const SurfaceRef& surface, const OpenMesh::PolyMesh& result) {
+  const auto kind = require_property(result, property::edge_kind);
+  const auto is_covered = [&](const Vec3d& p) {
+    for (const auto e : result.edges()) {
+      if (result.property(kind, e) != static_cast<int>(EdgeKind::feature)) continue;
+      const Vec3d a = result.point(e.v0()), along = result.point(e.v1()) - a;
+      const double t = std::clamp(((p - a) | along) / along.sqrnorm(), 0.0, 1.0);
+      if ((p - a - t * along).norm() <= 5e-4 * surface.diagonal()) return true;
+    }
+    return false;
+  };
+  const auto& mesh = surface.connectivity();
+  double total = 0, covered = 0;
+  for (const auto e : mesh.edges()) {
+    if (!mesh.status(e).feature() || mesh.is_boundary(e)) continue;
+    const Vec3d a = surface.point(e.v0()), b = surface.point(e.v1());
+    for (int i = 0; i <= 20; ++i) {
+      total += (b - a).norm();
+      covered += is_covered(a + i / 20.0 * (b - a)) ? (b - a).norm() : 0;
+    }
+  }
+  REQUIRE(total > 0);
+  return covered / total;
+}
+
+}  // namespace
+
+// Some end in a cell of the plane (nefertiti), some edges have vertices of the result in their middle.
+TEST_CASE("features that are asked for are covered over all of their length, on scans too", "[any_surface]") {
+  for (const char* name : {"blob.off", "blob-closed.off", "nefertiti.off", "pig.off", "part.off"}) {
+    const auto path = demo_mesh(name);
+    if (!path) return;
+    auto mesh = read_surface(*path);
+    RemeshOptions options;
+    options.target_faces = mesh.n_faces() / 2;
+    options.features.angle_degrees = 40;
+    const auto result = remesh(mesh, options);
+    INFO(name);
+    CHECK(covered_share(mesh, result) > 0.999);
+  }
+}
+
 TEST_CASE("one sliver along a side is no reason to halve the tolerances of a whole part", "[any_surface]") {
   const auto path = demo_mesh("anchor_dense.off");
   if (!path) return;

@@ -13,7 +13,8 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-constexpr int pieces = 2;  // samples on an edge of the input, beside its ends
+constexpr int pieces = 2;  // samples on an edge of the input, beside those that are only watched
+constexpr double watched = 8, most_watched = 64;  // places for each side of the result, and at all
 
 }  // namespace
 
@@ -38,16 +39,24 @@ FitCurves::FitCurves(const SurfaceRef& surface, const FitMesh& mesh, const FitMa
       for (const int* v = mesh.begin(p); v != mesh.end(p); ++v)
         candidates.insert(candidates.end(), sides_at(*v).begin(), sides_at(*v).end());
     }
-    // The ends, which are farthest from a chord, weigh nothing and are only watched.
-    for (int i = -1; i <= pieces; ++i) {
-      const bool end = i < 0 || i == pieces;
-      sample.place = a + std::clamp((i + 0.5) / pieces, 0.0, 1.0) * (b - a);
-      sample.length = end ? 0 : length / pieces;
+    const auto add = [&](double parameter, double stands_for) {
+      sample.place = a + parameter * (b - a);
+      sample.length = stands_for;
       sample.side = -1;
       sample.distance = std::numeric_limits<double>::infinity();
       for (const int s : candidates) look(sample.place, s, points, sample);
       if (sample.side >= 0) samples_.push_back(nearest(sample, points));
-    }
+    };
+    for (int i = 0; i < pieces; ++i) add((i + 0.5) / pieces, length / pieces);
+    // The ends, which are farthest from a chord, weigh nothing and are only watched; so are places between,
+    // as many as tell where a vertex between two sides goes that is in the middle of the edge.
+    double shortest = length;
+    for (const int s : candidates)
+      shortest =
+          std::min(shortest, (points[at(mesh.sides[at(s)].to)] - points[at(mesh.sides[at(s)].from)]).norm());
+    const double wanted = watched * (length - shortest) / std::max(shortest, length / most_watched);
+    const int n = 1 + static_cast<int>(std::lround(std::clamp(wanted, 0.0, most_watched)));
+    for (int i = 0; i <= n; ++i) add(static_cast<double>(i) / n, 0);
   }
 }
 

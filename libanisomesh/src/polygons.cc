@@ -89,11 +89,17 @@ Region Extractor::region_of(const Cell& cell, const std::vector<std::array<int, 
   for (size_t i = 0; i < region.corners.size(); ++i)
     index.push_back({region.corners.node[i], static_cast<int>(i)});
   std::sort(index.begin(), index.end());
-  for (const auto& t : cell.triangles) {
-    std::array<int, 3> triangle;
-    for (size_t k = 0; k < 3; ++k)
-      triangle[k] = (*std::lower_bound(index.begin(), index.end(), std::array<int, 2>{t[k], -1}))[1];
-    region.triangles.push_back(triangle);
+  const auto corner = [&](int n) {
+    return (*std::lower_bound(index.begin(), index.end(), std::array<int, 2>{n, -1}))[1];
+  };
+  for (const auto& t : cell.triangles) region.triangles.push_back({corner(t[0]), corner(t[1]), corner(t[2])});
+  if (!region.simple) {
+    // An edge that ends inside, as a feature may, has the cell on both sides.
+    auto sides = cell.sides;
+    std::sort(sides.begin(), sides.end());
+    for (const auto& [n, m] : sides)
+      if (n < m && std::binary_search(sides.begin(), sides.end(), std::array<int, 2>{m, n}))
+        region.walls.push_back({corner(n), corner(m)});
   }
   if (!cell.holds_samples)
     for (const int n : cell.samples) region.corners.add(network_, n);
@@ -104,9 +110,6 @@ Region Extractor::region_of(const Cell& cell, const std::vector<std::array<int, 
   region.probes = cell.probes;
   set_normal(cell, region.corners.normal);
   if (!network_.planar) {
-    const auto corner = [&](int n) {
-      return (*std::lower_bound(index.begin(), index.end(), std::array<int, 2>{n, -1}))[1];
-    };
     for (const auto& pair : cell.forbidden) region.corners.forbid(corner(pair[0]), corner(pair[1]));
     for (const auto& pair : taken) region.corners.forbid(pair[0], pair[1]);
     region.corners.on_surface = true;

@@ -232,7 +232,7 @@ RegionPolygons RegionMesher::run() {
       if (near && !taken) return result;
     }
   }
-  SmallTriangulation triangulation(corners_.uv, region_.triangles);
+  SmallTriangulation triangulation(corners_.uv, region_.triangles, region_.walls);
   const int n = static_cast<int>(corners_.size());
   if (!region_.holds_samples)
     for (int i = n - static_cast<int>(region_.isotropic); i < n; ++i) triangulation.insert(i);

@@ -23,6 +23,7 @@ struct Region {
   bool simple = true;                         ///< the border is one loop, in order
   size_t isotropic = 0;                       ///< how many of the corners are isotropic samples
   std::vector<std::array<int, 3>> triangles;  ///< of the corners on its border, by index
+  std::vector<std::array<int, 2>> walls;      ///< corners at the ends of edges that end inside
   double share = 1;                           ///< of the tolerances that holds here
   bool at_feature = false;                    ///< only where there is no parameter plane
   bool holds_samples = false;                 ///< the triangles are of the isotropic samples as well

@@ -29,7 +29,8 @@ double cosine(const Vec2d& apex, const Vec2d& a, const Vec2d& b) {
 }  // namespace
 
 SmallTriangulation::SmallTriangulation(const std::vector<Vec2d>& points,
-                                       std::vector<std::array<int, 3>> triangles)
+                                       std::vector<std::array<int, 3>> triangles,
+                                       const std::vector<std::array<int, 2>>& walls)
     : points_(&points), triangles_(std::move(triangles)), neighbors_(triangles_.size(), {-1, -1, -1}) {
   struct Side {
     int low, high, triangle;
@@ -49,6 +50,10 @@ SmallTriangulation::SmallTriangulation(const std::vector<Vec2d>& points,
   for (size_t i = 0; i + 1 < sides.size(); ++i) {
     const Side &x = sides[i], &y = sides[i + 1];
     if (x.low != y.low || x.high != y.high) continue;
+    const bool wall = std::any_of(walls.begin(), walls.end(), [&](const std::array<int, 2>& w) {
+      return std::min(w[0], w[1]) == x.low && std::max(w[0], w[1]) == x.high;
+    });
+    if (wall) continue;
     neighbors_[at(x.triangle)][x.k] = y.triangle;
     neighbors_[at(y.triangle)][y.k] = x.triangle;
   }

@@ -10,8 +10,10 @@ namespace anisomesh::detail {
 /// Its corners are indices into an array of points that the caller keeps and may append to.
 class SmallTriangulation {
  public:
-  /// Counter-clockwise triangles; edges of one triangle only are the border and stay.
-  SmallTriangulation(const std::vector<OpenMesh::Vec2d>& points, std::vector<std::array<int, 3>> triangles);
+  /// Counter-clockwise triangles; edges of one triangle only are the border and stay, as do walls, which are
+  /// pairs of corners.
+  SmallTriangulation(const std::vector<OpenMesh::Vec2d>& points, std::vector<std::array<int, 3>> triangles,
+                     const std::vector<std::array<int, 2>>& walls = {});
 
   const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
   /// The triangle that holds a point, or the one it is least far outside of.
