@@ -15,6 +15,10 @@ using Polygons = std::vector<std::vector<int>>;
 size_t at(int i) { return static_cast<size_t>(i); }
 
 constexpr int max_rounds = 3;
+/// Where more pairs cross, and more than this share of the polygons, sheets lie on each other or noise folds
+/// them, and what is mended at one place comes up again at the next.
+constexpr size_t few_pairs = 20;
+constexpr double few_share = 0.05;
 
 bool overlap(const Box& a, const Box& b) {
   for (int i = 0; i < 3; ++i)
@@ -222,6 +226,9 @@ bool Uncrosser::run() {
   if (found.empty()) return false;
   of_surface_ = crossings_of(surface_);
   found = pairs();
+  if (static_cast<double>(found.size()) >
+      few_pairs + few_share * static_cast<double>(mesh_.polygons().size()))
+    return false;
   for (int round = 0; round < max_rounds && !found.empty(); ++round) {
     bool changed = false;
     for (const auto& pair : found)
