@@ -72,6 +72,78 @@ struct Wanted {
   }
 };
 
+/// The result on its way, and what is known of it.
+class Balance {
+ public:
+  Balance(const SurfaceRef& surface, const OpenMesh::PolyMesh& result, const BalanceOptions& options,
+          const FitOptions& fit_options)
+      : surface_(surface),
+        input_(surface),
+        reference_(surface),
+        options_(options),
+        wanted_(surface, result, options),
+        work_(result),
+        state_(std::make_unique<detail::FitState>(surface, input_, work_, fit_options)) {}
+
+  double rms() const { return std::sqrt(0.5 * state_->energy()) / surface_.diagonal(); }
+  const detail::ReferenceSurface& reference() const { return reference_; }
+  OpenMesh::PolyMesh& work() { return work_; }
+  BalanceReport& report() { return report_; }
+
+  void fit(int passes) {
+    report_.fit.passes += state_->improve_often(passes);
+    for (const auto v : work_.vertices()) work_.set_point(v, state_->points()[static_cast<size_t>(v.idx())]);
+  }
+
+  void move() {
+    const detail::PatchMoves moves(surface_, input_, *state_, options_);
+    PatchMesh mesh(work_);
+    PatchChanges changes(mesh);
+    const long surplus = wanted_.surplus(work_);
+    const auto removals = moves.removals(mesh), additions = moves.additions(mesh, surplus < 0),
+               far = detail::FarMoves(reference_, *state_, options_).repartitions(mesh),
+               repartitions = moves.repartitions(mesh);
+    part(changes, far);
+    exchange(changes, removals, additions, surplus, report_);
+    part(changes, repartitions);
+    go_on_with(mesh);
+  }
+
+  /// The farthest places alone.
+  void part_far() {
+    PatchMesh mesh(work_);
+    PatchChanges changes(mesh);
+    const auto far = detail::FarMoves(reference_, *state_, options_).repartitions(mesh);
+    part(changes, far);
+    if (!far.empty()) go_on_with(mesh);
+  }
+
+  void split_quads() {
+    PatchMesh mesh(work_);
+    report_.split = split_bent_quads(*state_, input_, options_.split_gain, options_.least_quads, mesh);
+    if (report_.split > 0) work_ = mesh.mesh();
+  }
+
+ private:
+  void part(PatchChanges& changes, const std::vector<PatchMove>& moves) {
+    for (const PatchMove& move : moves)
+      if (changes.is_open(move)) changes.apply(move), ++report_.parted;
+  }
+  void go_on_with(const PatchMesh& mesh) {
+    work_ = mesh.mesh();
+    state_ = std::make_unique<detail::FitState>(std::move(*state_), work_, mesh.heirs());
+  }
+
+  const SurfaceRef& surface_;
+  const detail::FitInput input_;
+  const detail::ReferenceSurface reference_;
+  const BalanceOptions& options_;
+  const Wanted wanted_;
+  BalanceReport report_;
+  OpenMesh::PolyMesh work_;
+  std::unique_ptr<detail::FitState> state_;
+};
+
 }  // namespace
 
 void BalanceOptions::validate() const {
@@ -94,64 +166,35 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
   const auto start = std::chrono::steady_clock::now();
   options.validate();
   fit_options.validate();
-  BalanceReport report;
-  const detail::FitInput input(surface);
-  const detail::ReferenceSurface reference(surface);
-  OpenMesh::PolyMesh work = result, fitted;
+  Balance balance(surface, result, options, fit_options);
+  BalanceReport& report = balance.report();
+  OpenMesh::PolyMesh fitted;
   double rms_fitted = 0;
-  const auto rms = [&](double energy) { return std::sqrt(0.5 * energy) / surface.diagonal(); };
-  auto state = std::make_unique<detail::FitState>(surface, input, work, fit_options);
-  report.fit.rms_before = rms(state->energy());
-  const auto fit = [&](int passes) {
-    report.fit.passes += state->improve_often(passes);
-    for (const auto v : work.vertices()) work.set_point(v, state->points()[static_cast<size_t>(v.idx())]);
-  };
-  const size_t n_before = result.n_vertices();
-  const Wanted wanted(surface, result, options);
+  report.fit.rms_before = balance.rms();
   const bool change = options.rounds > 0 && (options.max_degree == 3 || options.max_degree == 4);
   for (int round = 0; change && round < options.rounds; ++round) {
     report_progress(progress, round / (options.rounds + 1.0));
-    fit(round == 0 ? passes_before : passes_between);
-    if (round == 0) {
-      fitted = work;
-      rms_fitted = rms(state->energy());
-    }
-    const detail::PatchMoves moves(surface, input, *state, options);
-    PatchMesh mesh(work);
-    PatchChanges changes(mesh);
-    const long surplus = wanted.surplus(work);
-    const auto removals = moves.removals(mesh), additions = moves.additions(mesh, surplus < 0);
-    const double triangle = options.triangle_cost * moves.mean_error();
-    const detail::FarMoves far(reference, *state, options.max_degree == 4, triangle);
-    const auto far_moves = far.repartitions(mesh), repartitions = moves.repartitions(mesh);
-    const auto apply = [&](const std::vector<PatchMove>& found) {
-      for (const PatchMove& move : found)
-        if (changes.is_open(move)) changes.apply(move), ++report.parted;
-    };
-    apply(far_moves);
-    exchange(changes, removals, additions, surplus, report);
-    apply(repartitions);
-    work = mesh.mesh();
-    state = std::make_unique<detail::FitState>(std::move(*state), work, mesh.heirs());
+    balance.fit(round == 0 ? passes_before : passes_between);
+    if (round == 0) fitted = balance.work(), rms_fitted = balance.rms();
+    balance.move();
   }
   report_progress(progress, options.rounds / (options.rounds + 1.0));
-  fit(change ? (3 * fit_options.passes + 3) / 4 : fit_options.passes);  // what was changed begins near
-  report.fit.rms_after = rms(state->energy());
+  const int last = change ? (3 * fit_options.passes + 3) / 4 : fit_options.passes;  // it begins near then
+  balance.fit(1);
+  if (change) balance.part_far();
+  balance.fit(last - 1);
+  report.fit.rms_after = balance.rms();
   report_progress(progress, 1);
   // A given number of vertices may have cost more than the moves have gained; error falls as 1 / vertices.
   const bool worse = change && options.target_vertices == 0 &&
-                     report.fit.rms_after * static_cast<double>(work.n_vertices()) >
-                         rms_fitted * static_cast<double>(n_before);
+                     report.fit.rms_after * static_cast<double>(balance.work().n_vertices()) >
+                         rms_fitted * static_cast<double>(result.n_vertices());
   if (worse) report.fit.rms_after = rms_fitted;
-  if (change && !worse) {
-    PatchMesh mesh(work);
-    report.split = split_bent_quads(*state, input, options.split_gain, options.least_quads, mesh);
-    if (report.split > 0) work = mesh.mesh();
-  }
+  if (change && !worse) balance.split_quads();
   std::vector<OpenMesh::PolyMesh> candidates{result};
   if (change) candidates.push_back(std::move(fitted));
-  if (!worse) candidates.push_back(std::move(work));
-  const auto taken = static_cast<size_t>(detail::choose_unfolded(surface, reference, candidates));
+  if (!worse) candidates.push_back(std::move(balance.work()));
+  const auto taken = static_cast<size_t>(choose_unfolded(surface, balance.reference(), candidates));
   if (taken + 1 < candidates.size()) report.fit.rms_after = taken == 0 ? report.fit.rms_before : rms_fitted;
   result = std::move(candidates[taken]);
   report.fit.seconds = report.seconds =

@@ -8,7 +8,6 @@
 #include <map>
 #include <set>
 
-#include "fit_guard.hh"
 #include "fit_samples.hh"
 
 namespace anisomesh::detail {
@@ -27,8 +26,11 @@ constexpr double least_fullness = 0.01;
 constexpr double much_less = 0.8;  // of the largest distance of a patch
 }  // namespace
 
-FarMoves::FarMoves(const ReferenceSurface& reference, const FitState& fit, bool quads, double triangle)
-    : reference_(reference), fit_(fit), quads_(quads), triangle_cost_(triangle) {
+FarMoves::FarMoves(const ReferenceSurface& reference, const FitState& fit, const BalanceOptions& options)
+    : reference_(reference),
+      fit_(fit),
+      quads_(options.max_degree == 4),
+      triangle_cost_(options.triangle_cost * 0.5 * fit.energy() / fit.mesh().n_polygons()) {
   const FitTriangles& triangles = fit.triangles();
   far_.assign(at(fit.mesh().n_polygons()), 0);
   own_.resize(far_.size());
@@ -141,27 +143,30 @@ Vec3d area_of(const Triangle& t, const PatchMesh& mesh) {
   return cross(mesh.point(t[1]) - mesh.point(t[0]), mesh.point(t[2]) - mesh.point(t[0]));
 }
 
-// The largest turn from one triangle to the next, as its cosine.
-double least_cosine_of(const std::vector<Triangle>& triangles, const PatchMesh::Patch& patch,
-                       const PatchMesh& mesh) {
-  double least = 1;
-  const auto unit = [](const Vec3d& n) { return n / std::max(n.norm(), 1e-300); };
-  const auto compare = [&](const Vec3d& n, const Vec3d& m) { least = std::min(least, unit(n) | unit(m)); };
-  for (const Triangle& t : triangles)
-    for (size_t k = 0; k < 3; ++k) {
-      const int v = t[k], w = t[(k + 1) % 3];
-      for (const Triangle& u : triangles)
-        for (size_t l = 0; l < 3; ++l)
-          if (u[l] == w && u[(l + 1) % 3] == v) compare(area_of(t, mesh), area_of(u, mesh));
-      const int beside = mesh.across(v, w);
-      if (beside < 0 ||
-          std::find(patch.polygons.begin(), patch.polygons.end(), beside) != patch.polygons.end())
-        continue;
-      for (const Triangle& u : triangles_of({mesh.polygons()[at(beside)]}, mesh))
-        for (size_t l = 0; l < 3; ++l)
-          if (u[l] == w && u[(l + 1) % 3] == v) compare(area_of(t, mesh), area_of(u, mesh));
+// Of pieces and the polygons around them, those that are folded as the ruler judges it: the walls of a slit
+// may face each other, as the input's do.
+size_t folds_of(const ReferenceSurface& reference, const PatchMesh& mesh, const PatchMesh::Patch& patch,
+                const std::vector<std::vector<int>>& pieces) {
+  auto polygons = pieces;
+  for (size_t i = 0; i < patch.ring.size(); ++i) {
+    const int beside = mesh.across(patch.ring[i], patch.ring[(i + 1) % patch.ring.size()]);
+    if (beside >= 0) polygons.push_back(mesh.polygons()[at(beside)]);
+  }
+  std::sort(polygons.begin(), polygons.end());
+  polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+  OpenMesh::PolyMesh part;
+  std::map<int, OpenMesh::VertexHandle> number;
+  for (const auto& polygon : polygons) {
+    std::vector<OpenMesh::VertexHandle> corners;
+    for (const int v : polygon) {
+      const auto [known, is_new] = number.try_emplace(v);
+      if (is_new) known->second = part.add_vertex(mesh.point(v));
+      corners.push_back(known->second);
     }
-  return least;
+    part.add_face(corners);
+  }
+  const auto folded = folded_faces(reference, PolygonSoup(part, FaceDiagonal::shorter));
+  return static_cast<size_t>(std::count(folded.begin(), folded.end(), 1)) + polygons.size() - part.n_faces();
 }
 
 }  // namespace
@@ -220,8 +225,8 @@ PatchMove FarMoves::partition(const PatchMesh& mesh, const PatchMesh::Patch& pat
   if (!mesh.may_replace(patch, found.pieces)) return move;
   const Error old = error(mesh, patch, before), now = error(mesh, patch, found.pieces);
   if (!(now.largest < much_less * much_less * old.largest && now.squared < old.squared)) return move;
-  const double turned = least_cosine_of(triangles_of(found.pieces, mesh), patch, mesh);
-  if (turned < least_fold && turned < least_cosine_of(triangles_of(before, mesh), patch, mesh)) return move;
+  const size_t folded = folds_of(reference_, mesh, patch, found.pieces);
+  if (folded > 0 && folded > folds_of(reference_, mesh, patch, before)) return move;
   move.patch = patch;
   move.pieces = std::move(found.pieces);
   move.gain = old.squared - now.squared;

@@ -15,8 +15,7 @@ namespace anisomesh::detail {
 /// from them.
 class FarMoves {
  public:
-  /// \param quads may be made \param triangle what one costs on top of its squared distances
-  FarMoves(const ReferenceSurface& reference, const FitState& fit, bool quads, double triangle);
+  FarMoves(const ReferenceSurface& reference, const FitState& fit, const BalanceOptions& options);
   /// Those that lower the largest distance of their patch by a fifth, and the error, the farthest first.
   std::vector<PatchMove> repartitions(const PatchMesh& mesh) const;
 

@@ -18,7 +18,11 @@ size_t at(int i) { return static_cast<size_t>(i); }
 // Corners (0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0).
 constexpr std::array<std::array<int, 2>, 6> corner_pair{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 constexpr double least_damping = 1e-12;  // where no sample is
-constexpr double shortest = 0.05;        // side that is turned, of the size of a polygon
+// Of the weight of normals, what goes by the tilt of triangles; the rest goes to all sides alike.
+// [docs/fit.md]
+constexpr double tilt_share = 0.4, most_cotangent = 6;
+constexpr double most_of_small = 10;  // triangles count for more than those of mean area
+constexpr double shortest = 0.05;     // side that is turned, of the size of a polygon
 
 size_t block_of(size_t k, size_t l) { return k == l ? k : 3 + (l == (k + 1) % 3 ? k : l); }
 
@@ -50,10 +54,10 @@ void TriangleForm::add(const FitPair& pair, const FitInput& input) {
 }
 
 // The squared heights of the sides against the normals.
-void TriangleForm::add_heights(double factor, const std::array<Vec3d, 3>& place) {
-  const Vec6d square = factor * normals;
+void TriangleForm::add_heights(const std::array<double, 3>& factor, const std::array<Vec3d, 3>& place) {
   for (size_t k = 0; k < 3; ++k) {
     const size_t l = (k + 1) % 3;
+    const Vec6d square = factor[k] * normals;
     const Vec3d pull = apply(square, place[l] - place[k]);
     right[k] += pull;
     right[l] -= pull;
@@ -63,16 +67,39 @@ void TriangleForm::add_heights(double factor, const std::array<Vec3d, 3>& place)
   }
 }
 
+namespace {
+
+// What the squared height of each side counts for. By the cotangents of the angles they lie opposite to, the
+// sum is the squared tilt of the triangle times its area: a short side's height is much of a tilt. All
+// triangles tilted alike would then count by area times area, the size of their distances.
+std::array<double, 3> height_weights(const std::array<Vec3d, 3>& place, double area, double mean_area,
+                                     double weight) {
+  std::array<double, 3> weights{};
+  if (!(area > 0)) return weights;
+  const double size = std::min(most_of_small, std::sqrt(mean_area / area));
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec3d &opposite = place[(k + 2) % 3], a = place[k] - opposite, b = place[(k + 1) % 3] - opposite;
+    const double cotangent = std::clamp((a | b) / (2 * area), -most_cotangent, most_cotangent);
+    weights[k] = weight * size * std::max(0.0, 1 - tilt_share + tilt_share * std::sqrt(3.0) * cotangent);
+  }
+  return weights;
+}
+
+}  // namespace
+
 void sum_forms(const FitTriangles& triangles, const FitInput& input, const FitPairs& pairs,
                const std::vector<Vec3d>& points, const FitOptions& options,
                std::vector<TriangleForm>& forms) {
   const Vec6d identity(1, 0, 0, 1, 0, 1);
   forms.resize(triangles.corner.size());
+  double mean_area = 0;
+  for (const double area : triangles.area) mean_area += area / static_cast<double>(triangles.area.size());
   tbb::parallel_for(size_t{0}, forms.size(), [&](size_t t) {
     TriangleForm& form = forms[t] = TriangleForm();
     pairs.for_each(t, [&](const FitPair& pair) { form.add(pair, input); });
     const Triangle& c = triangles.corner[t];
-    form.add_heights(options.normal_weight, {points[at(c[0])], points[at(c[1])], points[at(c[2])]});
+    const std::array<Vec3d, 3> place{points[at(c[0])], points[at(c[1])], points[at(c[2])]};
+    form.add_heights(height_weights(place, triangles.area[t], mean_area, options.normal_weight), place);
     for (size_t k = 0; k < 3; ++k)
       form.block[k] += options.damping * (form.weight / 3 + least_damping) * identity;
   });

@@ -22,7 +22,8 @@ struct TriangleForm {
 
   TriangleForm();
   void add(const FitPair& pair, const FitInput& input);
-  void add_heights(double factor, const std::array<Vec3d, 3>& place);
+  /// \param factor of each side
+  void add_heights(const std::array<double, 3>& factor, const std::array<Vec3d, 3>& place);
 };
 
 /// The squared distances of the pairs, the heights of the triangles' sides against the input's normals, and

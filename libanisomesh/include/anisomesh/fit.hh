@@ -12,13 +12,13 @@ struct FitOptions {
   bool enabled = true;  ///< remesh() fits only then; fit_vertices() does not look at it
   int passes = 4;  ///< matched and solved at most so often, three quarters as often after a balance; >= 1
   /// Weight of the normals: the squared height of an edge against the surface's normal, relative to the
-  /// squared distance; >= 0
-  double normal_weight = 0.01;
+  /// squared distance, more where a triangle is small or the edge short beside it; >= 0
+  double normal_weight = 0.012;
   double planarity_weight = 0.01;  ///< of the squared height of a quad's corners over their plane; >= 0
   /// Of the squared sine of the angle from a side to the nearer principal direction, relative to the
   /// square of the mean distance there is, and up to 2.75 times that where the result has over a fifth as
   /// many vertices as the input; >= 0
-  double alignment_weight = 22;
+  double alignment_weight = 28;
   double damping = 0.02;  ///< of the squared step, which is what holds vertices of flat places; > 0
   void validate() const;  ///< \throw InvalidOption
 };
