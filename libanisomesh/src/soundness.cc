@@ -130,10 +130,10 @@ PolygonAdjacency adjacency_of(const std::vector<Polygon>& polygons, const Networ
 // more tightly curled than the polygons are large, a polygon that stands for both sides is no fold.
 bool Soundness::is_against(const Place& place, const Vec3d& normal, const FoldReach& reach) const {
   const auto& mesh = surface_.connectivity();
-  const double limit = distance_below(place) + reach.far;
-  const auto below = locator_.locate(place.uv, place.point, place.start).face;
-  std::vector<OpenMesh::FaceHandle> found{below};
-  std::unordered_set<int> seen{below.idx()};
+  const SurfacePoint below = locator_.locate(place.uv, place.point, place.start);
+  const double limit = (position(surface_, below) - place.point).norm() + reach.far;
+  std::vector<OpenMesh::FaceHandle> found{below.face};
+  std::unordered_set<int> seen{below.face.idx()};
   double nearest = std::numeric_limits<double>::infinity(), nearest_right = nearest, cosine = 1;
   for (size_t i = 0; i < found.size(); ++i) {
     const auto c = surface_.corners(found[i]);

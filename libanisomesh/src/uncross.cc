@@ -57,6 +57,7 @@ class Uncrosser {
  private:
   PolygonSoup soup_of(const Polygons& polygons) const;
   Box box_of(const std::vector<int>& polygon) const;
+  bool is_of_surface(const std::array<int, 2>& pair) const;
   std::vector<std::array<int, 2>> pairs() const;
   Polygons at_numbers(const std::vector<int>& numbers) const;
   Polygons beside(const std::vector<int>& numbers, const Polygons& own) const;
@@ -92,6 +93,13 @@ Box Uncrosser::box_of(const std::vector<int>& polygon) const {
   return box;
 }
 
+bool Uncrosser::is_of_surface(const std::array<int, 2>& pair) const {
+  if (of_surface_.empty()) return false;
+  const Box a = box_of(mesh_.polygons()[at(pair[0])]), b = box_of(mesh_.polygons()[at(pair[1])]);
+  return std::any_of(of_surface_.begin(), of_surface_.end(),
+                     [&](const Box& box) { return overlap(box, a) && overlap(box, b); });
+}
+
 /// Polygons that cross where the surface does not.
 std::vector<std::array<int, 2>> Uncrosser::pairs() const {
   Polygons polygons;
@@ -105,10 +113,8 @@ std::vector<std::array<int, 2>> Uncrosser::pairs() const {
   std::vector<std::array<int, 2>> result;
   for (const auto& [t, u] : crossing_triangles(soup)) {
     const int p = soup.face_of[at(t)], q = soup.face_of[at(u)];
-    const Box a = box_of(polygons[at(p)]), b = box_of(polygons[at(q)]);
-    const bool known = std::any_of(of_surface_.begin(), of_surface_.end(),
-                                   [&](const Box& box) { return overlap(box, a) && overlap(box, b); });
-    if (!known) result.push_back({number[at(p)], number[at(q)]});
+    const std::array<int, 2> pair{number[at(p)], number[at(q)]};
+    if (!is_of_surface(pair)) result.push_back(pair);
   }
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
@@ -225,7 +231,9 @@ bool Uncrosser::run() {
   auto found = pairs();
   if (found.empty()) return false;
   of_surface_ = crossings_of(surface_);
-  found = pairs();
+  found.erase(
+      std::remove_if(found.begin(), found.end(), [&](const auto& pair) { return is_of_surface(pair); }),
+      found.end());
   if (static_cast<double>(found.size()) >
       few_pairs + few_share * static_cast<double>(mesh_.polygons().size()))
     return false;
