@@ -1,6 +1,8 @@
 // Which polygon lies beside which, while polygons change.
 #include "polygon_adjacency.hh"
 
+#include <algorithm>
+
 #include "catch.hh"
 
 using namespace anisomesh;
@@ -50,4 +52,27 @@ TEST_CASE("polygons that are taken out and put in are beside what they would be 
     CHECK(changed.faces_at(a) == anew.faces_at(a));
     for (int b = 0; b < a; ++b) CHECK(changed.are_joined(a, b) == anew.are_joined(a, b));
   }
+}
+
+TEST_CASE("what is around polygons of which two lie on each other is enclosed by the others' outline",
+          "[polygon_adjacency]") {
+  detail::NetworkGraph network;
+  const std::vector<Vec3d> places{{0, 0, 0}, {1, 0, 0}, {0.5, 0.1, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  for (const Vec3d& p : places) {
+    network.graph.add_node({p[0], p[1]});
+    network.positions.push_back(p);
+    network.points.emplace_back();
+    network.normals.emplace_back(0, 0, 1);
+  }
+  // 0, the middle of all, and 2, between the first two, are enclosed.
+  const std::vector<Polygon> polygons{{0, 1, 2}, {0, 2, 1, 3}, {3, 4, 5, 0}, {0, 5, 1}};
+  const detail::PolygonAdjacency adjacency(polygons, places.size(), [](int, int) { return true; });
+  auto nodes = adjacency.around(polygons, {0, 1, 2, 3}, network, true).node;
+  REQUIRE(nodes.size() == 4);
+  std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end()), nodes.end());
+  CHECK(nodes == Polygon{1, 3, 4, 5});
+  CHECK(adjacency.around(polygons, {0, 1, 2, 3}, network, false).loop == 0);  // none may go
+  // A feature that ends within stays.
+  const detail::PolygonAdjacency walled(polygons, places.size(), [](int a, int b) { return a + b != 2; });
+  CHECK(walled.around(polygons, {1, 2, 3, 0}, network, true).loop == 0);
 }

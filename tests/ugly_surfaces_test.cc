@@ -274,3 +274,14 @@ TEST_CASE("plates of a part in many triangles are not folded within their thickn
   CHECK(c.self_intersecting_faces == 0);
   CHECK(c.mean_normal_deviation_degrees < 0.5);  // 3.3 where walls were drawn over themselves
 }
+
+// One whose three faces are hit by lines a thousandth of their length from the tip.
+TEST_CASE("at the tip of a spike no sliver lies inside out on another side of it", "[ugly]") {
+  const auto path = demo_mesh("blob-closed.off");
+  if (!path) return skip("blob-closed.off");
+  auto mesh = read_surface(*path);
+  RemeshOptions options;
+  options.target_faces = 138;
+  auto result = remesh(mesh, options);
+  check_sound(compare(mesh, result));
+}

@@ -90,8 +90,9 @@ std::vector<int> PolygonAdjacency::fan(const std::vector<Polygon>& polygons, int
   }
 }
 
-RegionCorners PolygonAdjacency::around(const std::vector<Polygon>& polygons, const std::vector<int>& path,
-                                       const NetworkGraph& network, bool may_drop) const {
+// The nodes around polygons each of which lies beside the one before it; one may be there more than once.
+Polygon PolygonAdjacency::ring_around(const std::vector<Polygon>& polygons,
+                                      const std::vector<int>& path) const {
   Polygon ring = polygons[at(path.front())];
   for (size_t i = 1; i < path.size(); ++i) {
     const Polygon& before = polygons[at(path[i - 1])];
@@ -99,31 +100,49 @@ RegionCorners PolygonAdjacency::around(const std::vector<Polygon>& polygons, con
     size_t side = 0;
     while (neighbor(path[i - 1], side) != path[i]) ++side;
     const int a = before[side], b = before[(side + 1) % before.size()];
+    size_t place = 0;
+    while (place < ring.size() && (ring[place] != a || ring[(place + 1) % ring.size()] != b)) ++place;
+    if (place == ring.size()) return {};
     const auto start = static_cast<size_t>(std::find(next.begin(), next.end(), a) - next.begin());
-    auto place = std::find(ring.begin(), ring.end(), b) - ring.begin();
-    for (size_t k = 1; next[(start + k) % next.size()] != b; ++k, ++place)
-      ring.insert(ring.begin() + place, next[(start + k) % next.size()]);
+    for (size_t k = 1; next[(start + k) % next.size()] != b; ++k)
+      ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(++place), next[(start + k) % next.size()]);
   }
-  // Where the last polygon lies beside the first as well, the node they all share is no corner any more.
-  for (size_t i = 0; may_drop && ring.size() > 3 && i < ring.size();) {
+  return ring;
+}
+
+// Where polygons lie beside each other by more than one side, the ring runs to a node that they enclose and
+// back. \return such nodes, which are no corners any more
+Polygon PolygonAdjacency::take_out_enclosed(Polygon& ring) const {
+  Polygon enclosed;
+  for (size_t i = 0; ring.size() > 3 && i < ring.size();) {
     const size_t n = ring.size(), before = (i + n - 1) % n, after = (i + 1) % n;
-    if (ring[before] != ring[after]) {
+    if (ring[before] != ring[after] || !may_cross_(ring[i], ring[after])) {
       ++i;
       continue;
     }
+    enclosed.push_back(ring[i]);
     ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(std::max(i, after)));
     ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(std::min(i, after)));
     i = 0;
   }
+  return enclosed;
+}
+
+RegionCorners PolygonAdjacency::around(const std::vector<Polygon>& polygons, const std::vector<int>& path,
+                                       const NetworkGraph& network, bool may_drop) const {
+  Polygon ring = ring_around(polygons, path), known;
+  if (may_drop) known = take_out_enclosed(ring);
   RegionCorners corners;
   if (ring.size() < 3) return corners;
   Polygon sorted = ring;
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return corners;
   // Polygons that lie on each other leave corners out.
+  known.insert(known.end(), sorted.begin(), sorted.end());
+  std::sort(known.begin(), known.end());
   for (const int p : path)
     for (const int n : polygons[at(p)])
-      if (!std::binary_search(sorted.begin(), sorted.end(), n)) return corners;
+      if (!std::binary_search(known.begin(), known.end(), n)) return corners;
   for (const int n : ring) corners.add(network, n);
   corners.loop = ring.size();
   for (size_t i = 1; i + 1 < ring.size(); ++i)

@@ -41,6 +41,9 @@ class PolygonAdjacency {
                        const NetworkGraph& network, bool may_drop = false) const;
 
  private:
+  std::vector<int> ring_around(const std::vector<std::vector<int>>& polygons,
+                               const std::vector<int>& path) const;
+  std::vector<int> take_out_enclosed(std::vector<int>& ring) const;
   void forbid_other_sides(RegionCorners& corners, const std::vector<std::vector<int>>& polygons,
                           const std::vector<int>& path) const;
 

@@ -10,6 +10,7 @@
 #include "compare_parts.hh"
 #include "conforming.hh"
 #include "numerics/bvh.hh"
+#include "rounding.hh"
 
 namespace anisomesh::detail {
 
@@ -126,11 +127,24 @@ PolygonAdjacency adjacency_of(const std::vector<Polygon>& polygons, const Networ
 
 }  // namespace
 
+// Of what is found from each of the corners' faces the nearest: at the tip of a spike one may lead to another
+// side, farther off.
+SurfacePoint Soundness::below_of(const Place& place) const {
+  SurfacePoint nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto start : place.starts) {
+    const SurfacePoint found = locator_.locate(place.uv, place.point, start);
+    const double distance = (position(surface_, found) - place.point).norm();
+    if (is_surely_less(distance, least)) least = distance, nearest = found;
+  }
+  return nearest;
+}
+
 // Whether the surface around a place faces the other way than `normal`, everywhere within reach. Where it is
 // more tightly curled than the polygons are large, a polygon that stands for both sides is no fold.
 bool Soundness::is_against(const Place& place, const Vec3d& normal, const FoldReach& reach) const {
   const auto& mesh = surface_.connectivity();
-  const SurfacePoint below = locator_.locate(place.uv, place.point, place.start);
+  const SurfacePoint below = below_of(place);
   const double limit = (position(surface_, below) - place.point).norm() + reach.far;
   std::vector<OpenMesh::FaceHandle> found{below.face};
   std::unordered_set<int> seen{below.face.idx()};
@@ -155,10 +169,6 @@ bool Soundness::is_against(const Place& place, const Vec3d& normal, const FoldRe
   return nearest_right > nearest + reach.beyond(cosine);
 }
 
-double Soundness::distance_below(const Place& place) const {
-  return (position(surface_, locator_.locate(place.uv, place.point, place.start)) - place.point).norm();
-}
-
 // Four in each of the ruler's triangles: a bent quad may be right on those of the one diagonal only.
 std::vector<Soundness::Place> Soundness::places_in(const Polygon& polygon,
                                                    const NetworkGraph& network) const {
@@ -167,6 +177,11 @@ std::vector<Soundness::Place> Soundness::places_in(const Polygon& polygon,
                                        {1.0 / 6, 2.0 / 3, 1.0 / 6},
                                        {1.0 / 6, 1.0 / 6, 2.0 / 3}};
   std::vector<Place> places;
+  std::vector<OpenMesh::FaceHandle> starts;
+  for (const int n : polygon)
+    if (const auto face = network.points[at(n)].face;
+        std::find(starts.begin(), starts.end(), face) == starts.end())
+      starts.push_back(face);
   const Vec3d area = area_vector(polygon, network);
   const double length = area.norm();
   for (const Triangle& corner : triangulate_polygon(positions_of(polygon, network),
@@ -177,15 +192,15 @@ std::vector<Soundness::Place> Soundness::places_in(const Polygon& polygon,
                w[2] * of(polygon[at(corner[2])]);
       };
       places.push_back({mean([&](int n) { return network.graph.uv(n); }),
-                        mean([&](int n) { return network.positions[at(n)]; }),
-                        network.points[at(polygon[0])].face});
+                        mean([&](int n) { return network.positions[at(n)]; }), starts});
     }
   return places;
 }
 
 FoldReach Soundness::reach_of(const Polygon& polygon, const NetworkGraph& network) const {
   double distance = 0;
-  for (const Place& place : places_in(polygon, network)) distance = std::max(distance, distance_below(place));
+  for (const Place& place : places_in(polygon, network))
+    distance = std::max(distance, (position(surface_, below_of(place)) - place.point).norm());
   return {diameter_of(polygon, network), distance};
 }
 
@@ -245,7 +260,7 @@ std::vector<int> Soundness::unsound(const std::vector<Polygon>& polygons, const 
       const int a = polygons[p][i], b = polygons[p][(i + 1) % polygons[p].size()];
       const Place middle{0.5 * (network.graph.uv(a) + network.graph.uv(b)),
                          0.5 * (network.positions[at(a)] + network.positions[at(b)]),
-                         network.points[at(a)].face};
+                         {network.points[at(a)].face, network.points[at(b)].face}};
       bad[p] |= is_against(middle, n, reach_of(polygons[p], network));
       bad[at(q)] |= is_against(middle, m, reach_of(polygons[at(q)], network));
     }

@@ -36,10 +36,10 @@ class Soundness {
   struct Place {
     Vec2d uv;
     Vec3d point;
-    OpenMesh::FaceHandle start;  ///< where to begin to look for it
+    std::vector<OpenMesh::FaceHandle> starts;  ///< where to begin to look for it
   };
   std::vector<Place> places_in(const std::vector<int>& polygon, const NetworkGraph& network) const;
-  double distance_below(const Place& place) const;
+  SurfacePoint below_of(const Place& place) const;
   FoldReach reach_of(const std::vector<int>& polygon, const NetworkGraph& network) const;
   bool is_against(const Place& place, const Vec3d& normal, const FoldReach& reach) const;
   std::vector<int> unsound(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
