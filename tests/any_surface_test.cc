@@ -411,6 +411,18 @@ TEST_CASE("features that are asked for are covered over all of their length, on 
   }
 }
 
+// The foot of a fin between features is one edge of polygons on one side and two on the other.
+TEST_CASE("polygons on both sides of a straight feature share its vertices", "[any_surface]") {
+  const auto path = demo_mesh("hand.off");
+  if (!path) return skip("hand.off");
+  auto mesh = read_surface(*path);
+  RemeshOptions options;
+  options.features.angle_degrees = 50;
+  options.target_faces = 1000;
+  auto result = remesh(mesh, options);
+  check_sound(compared(mesh, result));
+}
+
 TEST_CASE("one sliver along a side is no reason to halve the tolerances of a whole part", "[any_surface]") {
   const auto path = demo_mesh("anchor_dense.off");
   if (!path) return;

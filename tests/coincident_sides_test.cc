@@ -52,3 +52,19 @@ TEST_CASE("where every node has a place of its own nothing lies on anything", "[
   CHECK_FALSE(sides.lies_on_another(3, 5));
   for (const auto& polygon : polygons) CHECK_FALSE(sides.has_one(polygon, network));
 }
+
+TEST_CASE("a side past a node that is beside both its ends lies on theirs", "[coincident_sides]") {
+  for (const double off : {0.0, 0.01}) {
+    detail::NetworkGraph network;
+    for (const Vec3d& p :
+         {Vec3d(0, 0, 0), Vec3d(1, off, 0), Vec3d(2, 0, 0), Vec3d(1, 1, 0), Vec3d(1, -1, 0)}) {
+      network.graph.add_node({p[0], p[1]});
+      network.positions.push_back(p);
+    }
+    const std::vector<std::vector<int>> polygons{{0, 1, 3}, {1, 2, 3}, {2, 0, 4}};
+    CHECK(CoincidentSides(polygons, network).has_one(polygons[2], network) == (off == 0));
+    CHECK_FALSE(CoincidentSides(polygons, network).has_one(polygons[0], network));
+    network.graph.add_edge(0, 2, static_cast<int>(EdgeKind::feature), 0);  // it must be there
+    CHECK_FALSE(CoincidentSides(polygons, network).has_one(polygons[2], network));
+  }
+}

@@ -158,6 +158,19 @@ TEST_CASE("a corner that went through another sheet goes back", "[unfold]") {
   }
 }
 
+TEST_CASE("no corner goes back to where another is, and crosses no more for being one with it", "[unfold]") {
+  auto sheets = two_sheets();
+  PolyMesh up = fans_over(0.3);
+  up.set_point(OpenMesh::VertexHandle(9), {0, 0, 0});  // where the lower one was built
+  std::vector<PolyMesh> candidates{up};
+  REQUIRE(compare(sheets, up).self_intersecting_faces > 0);
+  detail::choose_unfolded(sheets, detail::ReferenceSurface(SurfaceRef(sheets)), candidates);
+  const PolyMesh& result = candidates[0];
+  for (const auto v : result.vertices())
+    for (const auto w : result.vertices())
+      if (v.idx() < w.idx()) CHECK(result.point(v) != result.point(w));
+}
+
 TEST_CASE("a pyramid through another sheet is parted anew", "[unfold]") {
   auto sheets = two_sheets();  // built from where it stands, so that it has nowhere to go back to
   PolyMesh up = fans_over(0.1);

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "on_segment.hh"
+
 namespace anisomesh::detail {
 
 namespace {
@@ -15,6 +17,14 @@ std::array<int, 2> in_order(int a, int b) { return {std::min(a, b), std::max(a, 
 }  // namespace
 
 CoincidentSides::CoincidentSides(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network) {
+  for (const auto& polygon : polygons)
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const int a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+      joined_.push_back({a, b});
+      joined_.push_back({b, a});
+    }
+  std::sort(joined_.begin(), joined_.end());
+  joined_.erase(std::unique(joined_.begin(), joined_.end()), joined_.end());
   std::vector<int> nodes;
   for (const auto& polygon : polygons) nodes.insert(nodes.end(), polygon.begin(), polygon.end());
   std::sort(nodes.begin(), nodes.end());
@@ -58,10 +68,22 @@ bool CoincidentSides::lies_on_another(int a, int b) const {
                      [&](const Pair& side) { return side != in_order(a, b); });
 }
 
+bool CoincidentSides::passes_a_node(int a, int b, const NetworkGraph& network) const {
+  auto next = std::lower_bound(joined_.begin(), joined_.end(), Pair{a, -1});
+  for (; next != joined_.end() && (*next)[0] == a; ++next) {
+    const int n = (*next)[1];
+    if (n != b &&
+        is_on_segment(network.positions[at(n)], network.positions[at(a)], network.positions[at(b)]) &&
+        std::binary_search(joined_.begin(), joined_.end(), Pair{n, b}))
+      return true;
+  }
+  return false;
+}
+
 bool CoincidentSides::has_one(const std::vector<int>& polygon, const NetworkGraph& network) const {
-  for (size_t i = 0; i < polygon.size() && !place_.empty(); ++i) {
+  for (size_t i = 0; i < polygon.size(); ++i) {
     const int a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    if (!lies_on_another(a, b)) continue;
+    if (!lies_on_another(a, b) && !passes_a_node(a, b, network)) continue;
     const int edge = network.graph.find_edge(a, b);
     if (edge < 0 || is_line(network.graph.edge(edge).kind)) return true;
   }

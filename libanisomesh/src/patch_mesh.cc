@@ -4,6 +4,7 @@
 
 #include "anisomesh/mesher.hh"
 #include "anisomesh/properties.hh"
+#include "on_segment.hh"
 
 namespace anisomesh::detail {
 
@@ -117,6 +118,24 @@ bool PatchMesh::joined_outside(const Patch& patch, int v, int w) const {
   return false;
 }
 
+// Along a straight feature, say: on both sides of a fin that ends in one its polygons would share that edge.
+bool PatchMesh::passes_a_vertex(int v, int w) const {
+  const auto beside = [&](int u, const auto& visit) {
+    for (const int p : vertices_[at(u)].polygons) {
+      const auto& polygon = polygons_[at(p)];
+      const size_t n = polygon.size(),
+                   i = at(static_cast<int>(std::find(polygon.begin(), polygon.end(), u) - polygon.begin()));
+      visit(polygon[(i + 1) % n]), visit(polygon[(i + n - 1) % n]);
+    }
+  };
+  bool found = false;
+  beside(v, [&](int m) {
+    if (m == w || !is_on_segment(point(m), point(v), point(w))) return;
+    beside(w, [&](int k) { found |= k == m; });
+  });
+  return found;
+}
+
 int PatchMesh::edges_outside(const Patch& patch, int v) const {
   std::vector<int> ends, inside;
   for (const int p : vertices_[at(v)].polygons) {
@@ -154,7 +173,7 @@ bool PatchMesh::may_replace(const Patch& patch, const std::vector<std::vector<in
       const auto place = static_cast<size_t>(in_ring - patch.ring.begin());
       ++edges[place];
       const bool side = patch.ring[(place + 1) % n] == w || patch.ring[(place + n - 1) % n] == w;
-      if (w >= 0 && !side && joined_outside(patch, v, w)) return false;
+      if (w >= 0 && !side && (joined_outside(patch, v, w) || passes_a_vertex(v, w))) return false;
     }
   for (size_t i = 0; i < n; ++i)
     if (!vertices_[at(patch.ring[i])].on_curve && edges[i] + edges_outside(patch, patch.ring[i]) < 3)

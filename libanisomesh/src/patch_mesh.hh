@@ -45,8 +45,9 @@ class PatchMesh {
   /// For each pair of corners i < j of the ring, at i * n + j, whether they are joined outside, so that no
   /// piece may join them.
   std::vector<char> forbidden_chords(const Patch& patch) const;
-  /// Whether pieces can take the place of the patch: no edge a second time, no inner vertex with two edges
-  /// only, whose polygons would share both. A vertex to be added is -1.
+  /// Whether pieces can take the place of the patch: no edge a second time, none past a vertex that is beside
+  /// both its ends, no inner vertex with two edges only, whose polygons would share both. A vertex to be
+  /// added is -1.
   bool may_replace(const Patch& patch, const std::vector<std::vector<int>>& pieces) const;
 
   int add_vertex(const Vec3d& point, const SurfacePoint& source);
@@ -63,6 +64,7 @@ class PatchMesh {
     const auto a = static_cast<std::uint64_t>(std::min(v, w)), b = static_cast<std::uint64_t>(std::max(v, w));
     return a << 32 | b;
   }
+  bool passes_a_vertex(int v, int w) const;
   /// Edges at v that belong to no polygon of the patch.
   int edges_outside(const Patch& patch, int v) const;
   Patch with_ring(std::vector<int> polygons) const;

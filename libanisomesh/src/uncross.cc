@@ -63,6 +63,7 @@ class Uncrosser {
   Polygons beside(const std::vector<int>& numbers, const Polygons& own) const;
   size_t crossings(const Polygons& changed, const Polygons& others) const;
   size_t broken(const Polygons& changed, const Polygons& others) const;
+  bool is_taken(const Vec3d& place, const Polygons& others) const;
   bool move_corners(int polygon);
   bool part_anew(int polygon);
   std::vector<Polygons> partitions(const PatchMesh::Patch& patch) const;
@@ -207,6 +208,13 @@ bool Uncrosser::part_anew(int polygon) {
   return most > 0;
 }
 
+/// Whether a corner is there: in one place with it, polygons would cross no more and share an edge instead.
+bool Uncrosser::is_taken(const Vec3d& place, const Polygons& others) const {
+  return std::any_of(others.begin(), others.end(), [&](const auto& polygon) {
+    return std::any_of(polygon.begin(), polygon.end(), [&](int v) { return mesh_.point(v) == place; });
+  });
+}
+
 bool Uncrosser::move_corners(int polygon) {
   const std::vector<int> corners = mesh_.polygons()[at(polygon)];
   for (const double share : {0.5, 1.0})
@@ -220,7 +228,7 @@ bool Uncrosser::move_corners(int polygon) {
       const size_t crossed = crossings(own, others), worse = broken(own, others);
       mesh_.move(v, there);
       const Polygons met = beside(vertex.polygons, own);
-      if (crossings(own, met) < crossed && broken(own, met) <= worse) return true;
+      if (!is_taken(there, met) && crossings(own, met) < crossed && broken(own, met) <= worse) return true;
       mesh_.move(v, here);
     }
   return false;
