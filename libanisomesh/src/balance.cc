@@ -1,5 +1,6 @@
 #include "anisomesh/balance.hh"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -9,6 +10,7 @@
 #include "anisomesh/properties.hh"
 #include "canonical_copy.hh"
 #include "compare_parts.hh"
+#include "epsilon_search.hh"
 #include "far_moves.hh"
 #include "patch_moves.hh"
 #include "quad_splits.hh"
@@ -24,7 +26,8 @@ using detail::PatchMesh;
 using detail::PatchMove;
 
 constexpr int passes_before = 2, passes_between = 1;
-constexpr double sure = 1.2;  // an exchange must gain this many times what it costs
+constexpr int more_rounds = 3;  // where the number wanted is not met after those asked for
+constexpr double sure = 1.2;    // an exchange must gain this many times what it costs
 
 /// Takes removals and additions in turn, as long as that pays, or the number of vertices is not what it is to
 /// be.
@@ -70,6 +73,10 @@ struct Wanted {
     if (faces > 0) return std::lround((f - static_cast<double>(faces)) * n / f);
     return static_cast<long>(mesh.n_vertices()) - static_cast<long>(vertices);
   }
+  bool is_met(const OpenMesh::PolyMesh& mesh) const {
+    return std::abs(static_cast<double>(surplus(mesh))) <=
+           detail::kMet * static_cast<double>(mesh.n_vertices());
+  }
 };
 
 /// The result on its way, and what is known of it.
@@ -89,6 +96,7 @@ class Balance {
   const detail::ReferenceSurface& reference() const { return reference_; }
   OpenMesh::PolyMesh& work() { return work_; }
   BalanceReport& report() { return report_; }
+  const Wanted& wanted() const { return wanted_; }
 
   void fit(int passes) {
     report_.fit.passes += state_->improve_often(passes);
@@ -172,8 +180,9 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
   double rms_fitted = 0;
   report.fit.rms_before = balance.rms();
   const bool change = options.rounds > 0 && (options.max_degree == 3 || options.max_degree == 4);
-  for (int round = 0; change && round < options.rounds; ++round) {
-    report_progress(progress, round / (options.rounds + 1.0));
+  for (int round = 0; change && round < options.rounds + more_rounds; ++round) {
+    if (round >= options.rounds && balance.wanted().is_met(balance.work())) break;
+    report_progress(progress, std::min(round, options.rounds) / (options.rounds + 1.0));
     balance.fit(round == 0 ? passes_before : passes_between);
     if (round == 0) fitted = balance.work(), rms_fitted = balance.rms();
     balance.move();
@@ -185,8 +194,9 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
   balance.fit(last - 1);
   report.fit.rms_after = balance.rms();
   report_progress(progress, 1);
-  // A given number of vertices may have cost more than the moves have gained; error falls as 1 / vertices.
-  const bool worse = change && options.target_vertices == 0 &&
+  // A number that the search has met may have cost more than the moves have gained; error falls as 1 /
+  // vertices.
+  const bool worse = change && options.target_vertices == 0 && balance.wanted().is_met(result) &&
                      report.fit.rms_after * static_cast<double>(balance.work().n_vertices()) >
                          rms_fitted * static_cast<double>(result.n_vertices());
   if (worse) report.fit.rms_after = rms_fitted;

@@ -1,6 +1,7 @@
 #include "mending.hh"
 
 #include <algorithm>
+#include <utility>
 
 namespace anisomesh::detail {
 
@@ -47,7 +48,24 @@ std::vector<PatchMesh::Patch> patches_around(const PatchMesh& mesh, int face) {
   for (const int q : first)
     for (const int r : mesh.around(q))
       if (r != face) patches.push_back(mesh.join({face, q, r}));
-  for (const int v : mesh.polygons()[static_cast<size_t>(face)]) patches.push_back(mesh.star(v));
+  std::vector<PatchMesh::Patch> stars;
+  for (const int v : mesh.polygons()[static_cast<size_t>(face)])
+    if (auto star = mesh.star(v); !star.ring.empty()) stars.push_back(std::move(star));
+  patches.insert(patches.end(), stars.begin(), stars.end());
+  // What is left of a star may be too thin for a polygon of its own.
+  for (const auto& star : stars) {
+    std::vector<int> beside;
+    for (const int p : star.polygons)
+      for (const int q : mesh.around(p))
+        if (std::find(star.polygons.begin(), star.polygons.end(), q) == star.polygons.end() &&
+            std::find(beside.begin(), beside.end(), q) == beside.end())
+          beside.push_back(q);
+    for (const int q : beside) {
+      std::vector<int> polygons = star.polygons;
+      polygons.push_back(q);
+      patches.push_back(mesh.join(polygons));
+    }
+  }
   return patches;
 }
 

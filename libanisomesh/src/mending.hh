@@ -32,7 +32,8 @@ class FaceJudge {
 /// Along the reference's normals at the polygons of a patch and at what is around them.
 Vec3d view_normal(const ReferenceSurface& reference, const PatchMesh& mesh, const PatchMesh::Patch& patch);
 
-/// A face alone, with one, then two of its neighbours; at last without one of its corners.
+/// A face alone, with one, then two of its neighbours; at last without one of its corners, and this with one
+/// polygon beside.
 std::vector<PatchMesh::Patch> patches_around(const PatchMesh& mesh, int face);
 
 }  // namespace anisomesh::detail
