@@ -11,23 +11,26 @@ int main(int argc, char* argv[]) {
                         "First stage: tags feature edges and estimates curvature tensors at the vertices.");
   std::string input, output;
   anisomesh::FillOptions fill;
+  apps::RefineFlags refine;
   apps::FeatureFlags features;
   anisomesh::CurvatureOptions curvature;
   command.input(input, "input", "The surface: .obj, .off, .ply, .stl or .om");
   command.output(output, "Where to write the surface; only .om keeps what was found");
   apps::add_fill_option(command, fill);
   apps::add_feature_options(command, features);
+  apps::add_refine_option(command, refine);
   apps::add_curvature_options(command, curvature);
 
   return command.run(argc, argv, [&] {
     fill.validate();
+    refine.options.validate();
     curvature.validate();
     anisomesh::ReadReport read;
     auto mesh = apps::read_surface(command, input, &read);
     apps::fill_holes(command, mesh, read, fill);
-    const anisomesh::SurfaceRef surface = mesh;
-    const auto tagged = anisomesh::tag_features(surface, apps::resolve(features, read));
-    const auto estimated = anisomesh::estimate_curvature(surface, curvature, command.progress("curvature"));
+    const auto tagged = anisomesh::tag_features(mesh, apps::resolve(features, read));
+    apps::refine(command, mesh, refine, tagged);
+    const auto estimated = anisomesh::estimate_curvature(mesh, curvature, command.progress("curvature"));
     command.stop_if_cancelled();
     anisomesh::write_mesh(mesh, output);
     command.warn_unless_om(output);

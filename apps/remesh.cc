@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "anisomesh/features.hh"
 #include "anisomesh/io.hh"
 #include "support/command.hh"
 #include "support/options.hh"
@@ -61,6 +62,7 @@ int main(int argc, char* argv[]) {
                         "same bytes as anisomesh-estimate, -flatten, -trace and -mesh in a row.");
   std::string input, output, page;
   anisomesh::FillOptions fill;
+  apps::RefineFlags refine;
   apps::FeatureFlags features;
   apps::EpsilonFlags epsilon;
   anisomesh::RemeshOptions options;
@@ -77,6 +79,7 @@ int main(int argc, char* argv[]) {
   apps::add_target_options(command, options);
   apps::add_fill_option(command, fill);
   apps::add_feature_options(command, features);
+  apps::add_refine_option(command, refine);
   apps::add_curvature_options(command, options.curvature);
   apps::add_domain_options(command, options.domain, options.charts);
   apps::add_smoothing_options(command, options.smoothing);
@@ -91,16 +94,20 @@ int main(int argc, char* argv[]) {
   return command.run(argc, argv, [&] {
     options.trace.density.epsilon_fraction = epsilon.epsilon;
     fill.validate();
+    refine.options.validate();
     options.validate();  // before a long file is read
     if (!page.empty()) view::require_page(page);
     anisomesh::ReadReport read;
     auto mesh = apps::read_surface(command, input, &read);
     apps::fill_holes(command, mesh, read, fill);
+    const auto tagged = anisomesh::tag_features(mesh, apps::resolve(features, read));
+    apps::refine(command, mesh, refine, tagged);
+    options.features.automatic = false;  // what is tagged now is what there is
     const anisomesh::SurfaceRef surface = mesh;
-    options.features = apps::resolve(features, read);
     options.trace.density.epsilon_fraction = apps::resolve(epsilon, surface);
     anisomesh::RemeshReport report;
     auto result = anisomesh::remesh(surface, options, &report, command.progress("remeshing"));
+    report.features = tagged;
     command.stop_if_cancelled();
     const bool bounded = options.max_error.max_error_fraction > 0;
     const bool missed = bounded && !report.max_error.met;

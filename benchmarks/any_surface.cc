@@ -20,6 +20,7 @@
 #include "anisomesh/errors.hh"
 #include "anisomesh/features.hh"
 #include "anisomesh/properties.hh"
+#include "anisomesh/refine.hh"
 #include "anisomesh/remesh.hh"
 #include "arguments.hh"
 #include "bench.hh"
@@ -119,8 +120,13 @@ void run(const std::filesystem::path& path, const Settings& settings, bench::Bar
     options.fit.enabled = !settings.unfitted;
     options.features = settings.features;
     options.target_faces = std::max<size_t>(4, std::min(settings.target, mesh.n_faces() / 2));
+    // As the apps do.
+    const FeatureReport tagged = tag_features(mesh, options.features);
+    auto input = tagged.is_mechanical() ? refine(mesh) : mesh;
+    options.features.automatic = false;
     RemeshReport report;
-    auto result = remesh(mesh, options, &report);
+    auto result = remesh(input, options, &report);
+    report.features = tagged;
     CompareOptions compare_options;
     compare_options.samples = 50000;
     const Comparison c = compare(mesh, result, compare_options);

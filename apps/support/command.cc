@@ -59,6 +59,7 @@ std::string in_words_of_apps(std::string message) {
       {"min_crossings", "--min-crossings"},
       {"relax_passes", "--relax-passes"},
       {"max_edges of a hole", "--fill-holes"},
+      {"max_edge_fraction", "--refine"},
       {"corner_angle_degrees", "--corner-angle"},
       {"angle_degrees", "--feature-angle"},
       {"smoothing iterations are", "--smoothing is"},

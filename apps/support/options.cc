@@ -39,6 +39,23 @@ void add_fill_option(Command& command, FillOptions& options) {
       ->group("Holes");
 }
 
+void add_refine_option(Command& command, RefineFlags& flags) {
+  command.arguments()
+      .add_option_function<std::string>(
+          "--refine",
+          [&flags](const std::string& text) {
+            flags.automatic = text == "auto";
+            if (!flags.automatic && !CLI::detail::lexical_cast(text, flags.options.max_edge_fraction))
+              throw CLI::ValidationError("--refine", "'" + text + "' is neither a number nor auto");
+          },
+          "Divide triangles first that are longer than this, a fraction of the diagonal, and over four times "
+          "as "
+          "long as high; 0: none; auto: 0.05 where the input is a part (as for --feature-angle), else 0")
+      ->type_name("F")
+      ->default_str("auto")
+      ->group("Features");
+}
+
 void add_feature_options(Command& command, FeatureFlags& flags) {
   CLI::App& app = command.arguments();
   app.add_option_function<std::string>(

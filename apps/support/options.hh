@@ -5,6 +5,7 @@
 
 #include "anisomesh/holes.hh"
 #include "anisomesh/io.hh"
+#include "anisomesh/refine.hh"
 #include "anisomesh/remesh.hh"
 #include "support/command.hh"
 
@@ -24,6 +25,13 @@ struct EpsilonFlags {
 
 /// --fill-holes.
 void add_fill_option(Command& command, anisomesh::FillOptions& options);
+/// What --refine says.
+struct RefineFlags {
+  anisomesh::RefineOptions options;
+  bool automatic = true;  ///< only parts
+};
+/// --refine.
+void add_refine_option(Command& command, RefineFlags& flags);
 void add_feature_options(Command& command, FeatureFlags& flags);
 void add_curvature_options(Command& command, anisomesh::CurvatureOptions& options);
 /// --domain, and how charts are cut.

@@ -259,6 +259,19 @@ void fill_holes(Command& command, OpenMesh::TriMesh& mesh, ReadReport& read, con
   warn(filled.left_non_manifold, "an edge would get more than two faces, or they cross themselves");
 }
 
+void refine(Command& command, OpenMesh::TriMesh& mesh, const RefineFlags& flags,
+            const FeatureReport& features) {
+  if (flags.automatic && !features.is_mechanical()) return;
+  RefineReport refined;
+  OpenMesh::TriMesh finer = anisomesh::refine(mesh, flags.options, &refined);
+  command.report()["refine"] = {
+      {"divided", refined.divided}, {"faces", finer.n_faces()}, {"seconds", refined.seconds}};
+  if (refined.divided == 0) return;
+  command.say("long triangles divided: " + std::to_string(mesh.n_faces()) + " faces are now " +
+              std::to_string(finer.n_faces()) + "; --refine 0 leaves them");
+  mesh = std::move(finer);
+}
+
 std::string mesh_summary(const OpenMesh::PolyMesh& mesh) {
   const auto degrees = faces_by_degree(mesh);
   std::string text =

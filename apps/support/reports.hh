@@ -10,6 +10,7 @@
 #include "anisomesh/io.hh"
 #include "anisomesh/remesh.hh"
 #include "support/command.hh"
+#include "support/options.hh"
 
 namespace apps {
 
@@ -44,6 +45,11 @@ OpenMesh::TriMesh read_surface(Command& command, const std::string& path,
 /// Closes holes if they are to be closed, says so, and carries the vertex numbers in `read` along.
 void fill_holes(Command& command, OpenMesh::TriMesh& mesh, anisomesh::ReadReport& read,
                 const anisomesh::FillOptions& options);
+
+/// Divides long, thin triangles if there are any, and says so.
+/// \param features of the mesh, tagged
+void refine(Command& command, OpenMesh::TriMesh& mesh, const RefineFlags& flags,
+            const anisomesh::FeatureReport& features);
 
 /// "2013 vertices, 2001 faces: 1820 quads (91 %), 150 triangles, 31 others"
 std::string mesh_summary(const OpenMesh::PolyMesh& mesh);

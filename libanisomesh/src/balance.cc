@@ -26,8 +26,9 @@ using detail::PatchMesh;
 using detail::PatchMove;
 
 constexpr int passes_before = 2, passes_between = 1;
-constexpr int more_rounds = 3;  // where the number wanted is not met after those asked for
-constexpr double sure = 1.2;    // an exchange must gain this many times what it costs
+constexpr int more_rounds = 3;  // where there are too many after those asked for
+constexpr double near_enough = 0.05;
+constexpr double sure = 1.2;  // an exchange must gain this many times what it costs
 
 /// Takes removals and additions in turn, as long as that pays, or the number of vertices is not what it is to
 /// be.
@@ -73,9 +74,16 @@ struct Wanted {
     if (faces > 0) return std::lround((f - static_cast<double>(faces)) * n / f);
     return static_cast<long>(mesh.n_vertices()) - static_cast<long>(vertices);
   }
-  bool is_met(const OpenMesh::PolyMesh& mesh) const {
-    return std::abs(static_cast<double>(surplus(mesh))) <=
-           detail::kMet * static_cast<double>(mesh.n_vertices());
+  bool is_met(const OpenMesh::PolyMesh& mesh, double within) const {
+    return std::abs(excess(mesh)) <= within;
+  }
+  bool is_exceeded(const OpenMesh::PolyMesh& mesh, double by) const { return excess(mesh) > by; }
+
+ private:
+  /// As a fraction of what is wanted.
+  double excess(const OpenMesh::PolyMesh& mesh) const {
+    const auto there = static_cast<double>(faces > 0 ? mesh.n_faces() : mesh.n_vertices());
+    return there / static_cast<double>(faces > 0 ? faces : vertices) - 1;
   }
 };
 
@@ -181,7 +189,7 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
   report.fit.rms_before = balance.rms();
   const bool change = options.rounds > 0 && (options.max_degree == 3 || options.max_degree == 4);
   for (int round = 0; change && round < options.rounds + more_rounds; ++round) {
-    if (round >= options.rounds && balance.wanted().is_met(balance.work())) break;
+    if (round >= options.rounds && !balance.wanted().is_exceeded(balance.work(), near_enough)) break;
     report_progress(progress, std::min(round, options.rounds) / (options.rounds + 1.0));
     balance.fit(round == 0 ? passes_before : passes_between);
     if (round == 0) fitted = balance.work(), rms_fitted = balance.rms();
@@ -196,7 +204,8 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
   report_progress(progress, 1);
   // A number that the search has met may have cost more than the moves have gained; error falls as 1 /
   // vertices.
-  const bool worse = change && options.target_vertices == 0 && balance.wanted().is_met(result) &&
+  const bool worse = change && options.target_vertices == 0 &&
+                     balance.wanted().is_met(result, detail::kMet) &&
                      report.fit.rms_after * static_cast<double>(balance.work().n_vertices()) >
                          rms_fitted * static_cast<double>(result.n_vertices());
   if (worse) report.fit.rms_after = rms_fitted;

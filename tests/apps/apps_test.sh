@@ -50,6 +50,19 @@ stages_give_the_same_bytes)
   in_a_row flower.om row.obj
   anisomesh-remesh -q flower.om -o one.obj
   cmp row.obj one.obj
+  # a part of long triangles, which are divided first
+  printf 'OFF\n8 12 0\n0 0 0\n9 0 0\n9 1 0\n0 1 0\n0 0 1\n9 0 1\n9 1 1\n0 1 1\n3 0 2 1\n3 0 3 2\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 2 3 7\n3 2 7 6\n3 1 2 6\n3 1 6 5\n3 3 0 4\n3 3 4 7\n' >beam.off
+  in_a_row beam.off row.om
+  anisomesh-remesh -q beam.off -o one.om --json one.json
+  cmp row.om one.om
+  grep -q '"divided"' one.json || fail "no triangle of the beam divided"
+  ESTIMATE="--refine 0"
+  in_a_row beam.off row.om
+  anisomesh-remesh -q beam.off -o whole.om --refine 0
+  cmp row.om whole.om
+  ! cmp -s whole.om one.om || fail "--refine does nothing"
+  expect 2 "--refine must be" anisomesh-remesh beam.off -o x.obj --refine 2
+  expect 2 "--refine: 'much' is neither" anisomesh-remesh beam.off -o x.obj --refine much
   # with every option away from its default, a target, and a file that brings no tags
   anisomesh-shapes -q wave --vertices 1500 -o wave.off
   density="--rho 0.2 --adaptation 0.8 --seed 3 --target-faces 300"

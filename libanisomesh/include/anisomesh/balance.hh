@@ -11,8 +11,8 @@
 namespace anisomesh {
 
 struct BalanceOptions {
-  /// Of moves, each after a few passes of the fit, and up to three more where the number wanted is not met
-  /// within 10 % by then; 0: the fit alone; >= 0.
+  /// Of moves, each after a few passes of the fit, and up to three more where there are over 5 % too many by
+  /// then; 0: the fit alone; >= 0.
   int rounds = 2;
   /// So many vertices in the end, as far as the moves can; 0: as many as the search for a count was to find,
   /// where it left that to the balance (properties target_vertices and target_faces), else as many as there

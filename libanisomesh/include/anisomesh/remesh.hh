@@ -78,13 +78,12 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
                                   const MeshOptions& mesh = {}, const TargetOptions& target = {},
                                   TraceAndMeshReport* report = nullptr, const Progress& progress = {});
 
-/// Remeshes a surface: tag_features, estimate_curvature, choose_domain, smooth_tensors, find_umbilics,
-/// trace_lines, place_isotropic_samples, build_polygons, balance_vertices or
-/// fit_vertices. [ACDLD03]
-/// Reads: points, edge feature status. Writes: on the input mesh the properties of all stages; after a throw
-/// or a cancel those of the stages that were done by then.
-/// \pre in the plane, one component with one border loop \throw InvalidOption, InvalidInput, CannotProcess,
-/// SolverFailure, Cancelled
+/// Remeshes a surface, refine()d before where it is a part of long triangles: tag_features,
+/// estimate_curvature, choose_domain, smooth_tensors, find_umbilics, trace_lines, place_isotropic_samples,
+/// build_polygons, balance_vertices or fit_vertices. [ACDLD03] Reads: points, edge feature status. Writes: on
+/// the input mesh the properties of all stages; after a throw or a cancel those of the stages that were done
+/// by then. \pre in the plane, one component with one border loop \throw InvalidOption, InvalidInput,
+/// CannotProcess, SolverFailure, Cancelled
 OpenMesh::PolyMesh remesh(const SurfaceRef& surface, const RemeshOptions& options = {},
                           RemeshReport* report = nullptr, const Progress& progress = {});
 
