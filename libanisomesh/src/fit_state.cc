@@ -14,6 +14,8 @@ namespace anisomesh::detail {
 
 namespace {
 
+size_t at(int i) { return static_cast<size_t>(i); }
+
 constexpr int max_attempts = 3;
 constexpr double settled = 0.995;  // of the squared error: a pass that gains less is the last
 constexpr double longer = 1.5;     // than what the linearized terms ask for: with 2 passes as near as 3 to 4
@@ -77,6 +79,7 @@ FitState::FitState(const SurfaceRef& surface, const FitInput& input, const OpenM
       input_(input),
       mesh_(result),
       free_(free_vertices(result, mesh_)),
+      twins_(border_twins(result)),
       pattern_(mesh_),
       points_(points_of(result)),
       triangles_(mesh_, points_),
@@ -91,6 +94,7 @@ FitState::FitState(FitState&& earlier, const OpenMesh::PolyMesh& result,
       input_(earlier.input_),
       mesh_(result),
       free_(free_vertices(result, mesh_)),
+      twins_(border_twins(result)),
       pattern_(mesh_),
       points_(points_of(result)),
       triangles_(mesh_, points_),
@@ -104,9 +108,14 @@ size_t FitState::improve() {
   sum_forms(triangles_, input_, pairs_, points_, options_, forms_);
   std::vector<Vec3d> step = solve();
   for (Vec3d& s : step) s *= longer;
+  keep_together(step);
   const FitGuard guard(mesh_, triangles_, forms_);
   const auto strays = [&](const std::vector<Vec3d>& points, std::vector<char>& marked) {
     curves_.mark_strays(points, marked);
+    for (const auto& group : twins_) {
+      const bool any = std::any_of(group.begin(), group.end(), [&](int v) { return marked[at(v)] != 0; });
+      for (const int v : group) marked[at(v)] = any;
+    }
   };
   for (int attempt = 0; attempt < max_attempts; ++attempt) {
     size_t held = 0;
@@ -123,6 +132,16 @@ size_t FitState::improve() {
     for (Vec3d& s : step) s *= shorter;
   }
   return 0;
+}
+
+/// The two sides of a slit go the same way, and none where one of them may not.
+void FitState::keep_together(std::vector<Vec3d>& step) const {
+  for (const auto& group : twins_) {
+    Vec3d mean(0, 0, 0);
+    for (const int v : group) mean += step[at(v)] / static_cast<double>(group.size());
+    const bool free = std::all_of(group.begin(), group.end(), [&](int v) { return free_[at(v)] != 0; });
+    for (const int v : group) step[at(v)] = free ? mean : Vec3d(0, 0, 0);
+  }
 }
 
 int FitState::improve_often(int passes, size_t* held, const Progress& progress) {

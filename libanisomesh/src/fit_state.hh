@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "anisomesh/fit.hh"
+#include "border_twins.hh"
 #include "fit_curves.hh"
 #include "fit_matching.hh"
 #include "fit_system.hh"
@@ -41,12 +42,14 @@ class FitState {
 
  private:
   std::vector<Vec3d> solve() const;
+  void keep_together(std::vector<Vec3d>& step) const;
 
   const SurfaceRef& surface_;
   const FitOptions& options_;
   const FitInput& input_;
   const FitMesh mesh_;
   const std::vector<char> free_;
+  const std::vector<std::vector<int>> twins_;  // vertices on the border, in one place
   const FitPattern pattern_;
   std::vector<Vec3d> points_;
   FitTriangles triangles_;

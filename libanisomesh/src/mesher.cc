@@ -17,6 +17,7 @@
 #include "polygon_output.hh"
 #include "polygons.hh"
 #include "recorded.hh"
+#include "slit_seams.hh"
 #include "soundness.hh"
 #include "upright_quads.hh"
 
@@ -209,6 +210,7 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
   const detail::PolygonJudge judge(
       surface, drawing->locator(), normals,
       {judged, planar ? 10.0 : 100.0, options.max_bend_degrees, options.alignment_weight});
+  const detail::SlitSeams seams(surface);
   NetworkGraph network, start = drawing->network();
   std::vector<std::vector<int>> polygons;
   while (true) {
@@ -229,6 +231,7 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
     local.convexity_splits = set.convexity_splits;
     local.conforming_edges = set.conforming_edges;
     polygons = std::move(set.polygons);
+    seams.zip(polygons, network, normals, judge, region_options.partition);
     detail::Soundness soundness(surface, drawing->locator(), judge, options.convex);
     soundness.require_topology(polygons);
     auto unsound = soundness.repair(polygons, network, options.max_degree, local.retries >= patience);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "anisomesh/properties.hh"
+#include "border_twins.hh"
 #include "mending.hh"
 #include "patch_partition.hh"
 #include "uncross.hh"
@@ -27,6 +28,14 @@ OpenMesh::PolyMesh with_corners_back(const SurfaceRef& surface, const OpenMesh::
       const SurfacePoint source{OpenMesh::FaceHandle(mesh.property(face, v)), mesh.property(barycentric, v)};
       result.set_point(v, 0.5 * (mesh.point(v) + position(surface, source)));
     }
+  }
+  for (const auto& group : border_twins(mesh)) {
+    const auto moved = std::find_if(group.begin(), group.end(), [&](int v) {
+      return result.point(OpenMesh::VertexHandle(v)) != mesh.point(OpenMesh::VertexHandle(v));
+    });
+    if (moved == group.end()) continue;
+    const Vec3d to = result.point(OpenMesh::VertexHandle(*moved));
+    for (const int v : group) result.set_point(OpenMesh::VertexHandle(v), to);
   }
   return result;
 }
