@@ -25,7 +25,8 @@ void print_errors(double noise, double radius, const std::vector<int>& sizes) {
           auto sampled = shapes::sample(form, vertices, irregular, noise);
           CurvatureOptions options;
           options.estimator = estimator;
-          options.radius_fraction = radius;
+          const SurfaceRef surface = sampled.mesh;
+          options.radius_fraction = radius * surface.diagonal() / surface.extent();
           estimate_curvature(sampled.mesh, options);
           const auto e = shapes::curvature_error(sampled);
           const auto count = static_cast<double>(sampled.mesh.n_vertices());

@@ -2,14 +2,13 @@
 //
 //   invariance FACES|EPSILON NAME[:FEATURE_ANGLE]...
 //
-// A number below 1 is the epsilon, as a fraction of the diagonal. NAME is a file of libcgal-demo (with
-// ANISOMESH_DATA=FOLDER, see data.hh) or a shape. A rotation changes the bounding box, and options that are
-// fractions of its diagonal are given accordingly. "Farthest" is the largest distance of a vertex of the
-// result from where it is to be, as a fraction of the diagonal, or says that there are others.
+// A number below 1 is the epsilon, as a fraction of the diagonal before the change; 0: the default. NAME is a
+// file of libcgal-demo (with ANISOMESH_DATA=FOLDER, see data.hh) or a shape. "Farthest" is the largest
+// distance of a vertex of the result from where it is to be, as a fraction of the diagonal, or says that
+// there are others.
 #include <string>
 #include <vector>
 
-#include "anisomesh/balance.hh"
 #include "anisomesh/remesh.hh"
 #include "anisomesh/shapes.hh"
 #include "bench.hh"
@@ -21,9 +20,9 @@ namespace {
 
 struct Job {
   std::string name;
-  double angle_degrees = 0;
-  size_t faces = 0;    ///< 0: epsilon
-  double epsilon = 0;  ///< of the diagonal
+  double angle_degrees = -1;  ///< below 0: features are found
+  size_t faces = 0;           ///< 0: epsilon
+  double epsilon = 0;         ///< of the diagonal
 };
 
 OpenMesh::TriMesh load(const std::string& name) {
@@ -49,31 +48,22 @@ std::string farthest(const OpenMesh::PolyMesh& expected, const OpenMesh::PolyMes
 template <class Same>
 OpenMesh::PolyMesh run(const Job& job, const char* what, OpenMesh::TriMesh& mesh, double box, Same same) {
   RemeshOptions options;
-  options.features.angle_degrees = job.angle_degrees;
-  options.features.automatic = false;
+  if (job.angle_degrees >= 0) {
+    options.features.angle_degrees = job.angle_degrees;
+    options.features.automatic = false;
+  }
   options.target_faces = job.faces;
-  if (job.faces == 0) options.trace.density.epsilon_fraction = job.epsilon * box;
-  options.fit.enabled = false;
-  options.curvature.radius_fraction *= box;
-  options.smoothing.radius_fraction *= box;
-  options.trace.density.max_spacing_fraction *= box;
-  options.mesh.feature_tolerance = 4e-4 * box;
+  options.trace.density.epsilon_fraction = job.epsilon * box;
   RemeshReport report;
   auto result = remesh(mesh, options, &report);
-  const OpenMesh::PolyMesh polygons = result;
-  const auto rms = [&](OpenMesh::PolyMesh& m) { return 100 * compare(mesh, m).two_sided.rms / box; };
-  const double plain = rms(result);
-  const size_t vertices = result.n_vertices(), faces = result.n_faces();
-  auto fitted = result;
-  fit_vertices(mesh, fitted);
-  balance_vertices(mesh, result);
-  std::printf("| %s | %s | %.6g | %zu + %zu | %zu | %zu | %zu | %zu | %s | %.5f | %.5f | %.5f, %zu |\n",
-              job.name.c_str(), what, report.epsilon_fraction / box, report.trace.min_lines,
-              report.trace.max_lines, report.trace.points,
-              report.isotropic.from_umbilics + report.isotropic.random, vertices, faces,
-              same(polygons).c_str(), plain, rms(fitted), rms(result), result.n_faces());
+  const std::string off = same(result);
+  const double rms = 100 * compare(mesh, result).two_sided.rms / box;
+  std::printf("| %s | %s | %.12g | %zu + %zu | %zu | %zu | %zu | %zu | %s | %.5f |\n", job.name.c_str(), what,
+              report.epsilon_fraction / box, report.trace.min_lines, report.trace.max_lines,
+              report.trace.points, report.isotropic.from_umbilics + report.isotropic.random,
+              result.n_vertices(), result.n_faces(), off.c_str(), rms);
   std::fflush(stdout);
-  return polygons;
+  return result;
 }
 
 }  // namespace
@@ -84,15 +74,13 @@ int main(int argc, char** argv) {
     return 1;
   }
   std::printf(
-      "| input | copy | epsilon | lines | points | samples | vertices | faces | farthest | rms %% | fitted | "
-      "balanced, "
-      "faces |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "| input | copy | epsilon | lines | points | samples | vertices | faces | farthest | rms %% |\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n");
   for (int i = 2; i < argc; ++i) {
     Job job;
     job.name = argv[i];
     job.epsilon = std::stod(argv[1]);
-    if (job.epsilon >= 1) job.faces = static_cast<size_t>(job.epsilon);
+    if (job.epsilon >= 1) job.faces = static_cast<size_t>(job.epsilon), job.epsilon = 0;
     if (const auto colon = job.name.find(':'); colon != std::string::npos) {
       job.angle_degrees = std::stod(job.name.substr(colon + 1));
       job.name.resize(colon);

@@ -186,7 +186,7 @@ int main(int argc, char** argv) {
   find_umbilics(mesh);
   trace_lines(mesh, options);
   const SurfaceRef surface = mesh;
-  const Density density(options.density, surface.diagonal(), 0);
+  const Density density(options.density, surface.diagonal(), surface.extent(), 0);
 
   std::vector<CircleArc> arcs[2];
   for (const Line& line : read_lines(mesh).lines)

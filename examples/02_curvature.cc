@@ -12,7 +12,7 @@ int main() {
   OpenMesh::TriMesh mesh = anisomesh::make_shape("half-torus", shape);  // R = 1, r = 0.4
 
   anisomesh::CurvatureOptions options;
-  options.radius_fraction = 0.01;  // of the bounding box diagonal; larger against noise
+  options.radius_fraction = 0.0125;  // of the extent, as by default; larger against noise
   const auto report = anisomesh::estimate_curvature(mesh, options);
   std::printf("radius %g, %zu of %zu balls enlarged, %.3f s\n", report.radius, report.enlarged_balls,
               mesh.n_vertices(), report.seconds);

@@ -40,14 +40,18 @@ inline OpenMesh::TriMesh representable(OpenMesh::TriMesh mesh, double size) {
 inline std::vector<Change> changes(double size) {
   const auto same = [](const Vec3d& p) { return p; };
   const double far = far_off(size);
-  return {
-      {"scaled by 1e-6", 1e-6, [](const Vec3d& p) { return 1e-6 * p; }, false},
-      {"scaled by 1e6", 1e6, [](const Vec3d& p) { return 1e6 * p; }, false},
-      {"moved by 1e6 of its size", 1, [=](const Vec3d& p) { return p + Vec3d(far, -far, far); }, false},
-      {"turned", 1,
-       [](const Vec3d& p) { return Vec3d(0.6 * p[0] - 0.8 * p[1], 0.8 * p[0] + 0.6 * p[1], p[2]); }, false},
-      {"axes swapped", 1, [](const Vec3d& p) { return Vec3d(p[1], p[2], p[0]); }, false},
-      {"renumbered", 1, same, true}};
+  const auto turned = [](double x, double y, double z, double angle) {  // Rodrigues' formula
+    return [=, axis = Vec3d(x, y, z).normalized()](const Vec3d& p) {
+      return std::cos(angle) * p + std::sin(angle) * (axis % p) + (1 - std::cos(angle)) * (axis | p) * axis;
+    };
+  };
+  return {{"scaled by 1e-6", 1e-6, [](const Vec3d& p) { return 1e-6 * p; }, false},
+          {"scaled by 1e6", 1e6, [](const Vec3d& p) { return 1e6 * p; }, false},
+          {"moved by 1e6 of its size", 1, [=](const Vec3d& p) { return p + Vec3d(far, -far, far); }, false},
+          {"turned", 1, turned(1, 2, 3, 1), false},
+          {"turned farther", 1, turned(-2, 1, 0.3, 2.2), false},
+          {"axes swapped", 1, [](const Vec3d& p) { return Vec3d(p[1], p[2], p[0]); }, false},
+          {"renumbered", 1, same, true}};
 }
 
 inline OpenMesh::TriMesh changed(const OpenMesh::TriMesh& mesh, const Change& change) {

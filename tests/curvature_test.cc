@@ -252,7 +252,7 @@ TEST_CASE("a petal of the octa-flower is estimated as if the others were not the
     }
     petal.add_face(corner[0], corner[1], corner[2]);
   }
-  const double ratio = SurfaceRef(flower).diagonal() / SurfaceRef(petal).diagonal();
+  const double ratio = SurfaceRef(flower).extent() / SurfaceRef(petal).extent();
   options.radius_fraction *= ratio;
   const auto alone = estimate(petal, options);
   std::vector<Vec6d> expected, found;

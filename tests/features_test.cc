@@ -55,7 +55,7 @@ TEST_CASE("what the user says of features goes before what is found", "[features
   const auto sharp_edges = [](const FeatureOptions& options, auto& mesh) {
     const auto report = tag_features(mesh, options);
     CHECK(!report.automatic);
-    CHECK(mesh.property(require_property(mesh, property::feature_tolerance)) == Approx(4e-4));
+    CHECK(mesh.property(require_property(mesh, property::feature_tolerance)) == Approx(4.8e-4));
     return report.feature_edges;
   };
   FeatureOptions options;

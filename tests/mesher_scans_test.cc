@@ -24,14 +24,20 @@ using namespace anisomesh;
 
 namespace {
 
+/// With lengths in fractions of the diagonal, so that the lines do not hang on what is chosen by default.
 void trace(OpenMesh::TriMesh& mesh, double epsilon) {
   const SurfaceRef surface = mesh;
-  estimate_curvature(surface);
-  flatten(surface);
-  smooth_tensors(surface);
-  find_umbilics(surface);
+  const double diagonal = surface.diagonal() / surface.extent();
+  CurvatureOptions curvature;
+  SmoothingOptions smoothing;
   TraceOptions options;
+  curvature.radius_fraction = smoothing.radius_fraction = 0.01 * diagonal;
+  options.density.max_spacing_fraction = 0.2 * diagonal;
   options.density.epsilon_fraction = epsilon;
+  estimate_curvature(surface, curvature);
+  flatten(surface);
+  smooth_tensors(surface, smoothing);
+  find_umbilics(surface);
   trace_lines(surface, options);
   place_isotropic_samples(surface, options);
 }

@@ -156,7 +156,7 @@ TEST_CASE("smoothing raises a paraboloid by the second moment of its kernel", "[
   SmoothingOptions options;
   options.radius_fraction = 0.08;
   options.iterations = GENERATE(1, 3);
-  const double radius = options.radius_fraction * std::sqrt(8.0);
+  const double radius = options.radius_fraction * std::sqrt(8.0);  // of a square, as long as its diagonal
   const double rise = options.iterations * moment / mass * radius * radius;
   auto mesh = flat_field([](const Vec2d& p) { return Vec3d(p.sqrnorm(), 0, 0); }, 20000, true);
   smooth_tensors(mesh, options);
@@ -224,7 +224,7 @@ TEST_CASE("smoothing takes noise off the directions and umbilics with it", "[smo
   const double before = mean_angle(tensors_of(mesh), truth);
   const auto umbilics_before = find_umbilics(mesh);
   SmoothingOptions options;
-  options.radius_fraction = 0.03;
+  options.radius_fraction = 0.1 / SurfaceRef(mesh).extent();
   options.anisotropic = GENERATE(false, true);
   smooth_tensors(mesh, options);
   const auto umbilics_after = find_umbilics(mesh);

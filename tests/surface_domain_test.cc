@@ -180,7 +180,9 @@ TEST_CASE("around a limb thinner than its lines are apart a line goes once and i
         tube.add_face(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
       }
   prepare(tube);
-  trace_lines(tube, with_epsilon(0.0003));
+  TraceOptions options = with_epsilon(0.0003);
+  options.density.max_spacing_fraction = 0.2;  // rings are as far apart as they may be
+  trace_lines(tube, options);
   size_t rings = 0;
   double nearest = height;
   std::vector<double> heights;
@@ -337,9 +339,10 @@ TEST_CASE("on a half torus plane and surface find the same lines", "[surface-dom
 TEST_CASE("a sphere is sampled, and its noise makes no lines", "[surface-domain]") {
   auto mesh = shape("sphere", 4000);
   const SurfaceRef surface = mesh;
-  const auto traced = trace_lines(mesh);
+  const auto options = with_epsilon(0.001);
+  const auto traced = trace_lines(mesh, options);
   CHECK(traced.min_lines + traced.max_lines <= 2);
-  place_isotropic_samples(mesh);
+  place_isotropic_samples(mesh, options);
   const double spacing = chord_spacing(1, 0.001 * surface.diagonal());
   std::vector<Vec3d> samples;
   for (const auto& p : read_lines(mesh).isotropic_samples) samples.push_back(position(surface, p));
@@ -364,18 +367,16 @@ TEST_CASE("moved, turned and scaled, a surface has lines as long, and the first 
     std::vector<Vec3d> first;
     double length[2] = {0, 0};
   };
-  // The bounding box turns with the axes, not with the surface: its diagonal is taken out of the options.
   const auto trace = [](OpenMesh::TriMesh mesh, double scale) {
-    const double unit = scale / SurfaceRef(mesh).diagonal();
     CurvatureOptions curvature;
-    curvature.radius_fraction = 0.03 * unit;
+    curvature.radius_fraction = 0.03 * scale / SurfaceRef(mesh).extent();
     SmoothingOptions smoothing;
-    smoothing.radius_fraction = 0.05 * unit;
+    smoothing.radius_fraction = 0.05 * scale / SurfaceRef(mesh).extent();
     estimate_curvature(mesh, curvature);
     smooth_tensors(mesh, smoothing);
     find_umbilics(mesh);
-    TraceOptions options = with_epsilon(0.001 * unit);
-    options.density.max_spacing_fraction = 0.4 * unit;
+    TraceOptions options = with_epsilon(0.001 * scale / SurfaceRef(mesh).diagonal());
+    options.density.max_spacing_fraction = 0.4 * scale / SurfaceRef(mesh).extent();
     trace_lines(mesh, options);
     Traced traced;
     for (const Line& line : read_lines(mesh).lines) {

@@ -145,9 +145,10 @@ TEST_CASE("lines on a half torus are spaced by equation 6 within a quarter for n
   const bool graded = GENERATE(true, false);
   TraceOptions options = with_epsilon(graded ? GENERATE(0.001, 0.0015, 0.0025) : 0.0015);
   if (!graded) options.density.max_slope = 2;  // next to what equation 6 asks for itself
-  trace_lines(mesh, options);
   const SurfaceRef surface = mesh;
-  const Density density(options.density, surface.diagonal(), 0);
+  options.density.max_spacing_fraction = 0.65 / surface.extent();  // a fifth of the diagonal
+  trace_lines(mesh, options);
+  const Density density(options.density, surface.diagonal(), surface.extent(), 0);
   GapCount both;
   for (const LineKind kind : {LineKind::min, LineKind::max}) {
     std::vector<CircleArc> arcs;

@@ -50,15 +50,20 @@ inline OpenMesh::TriMesh square(int n, const Field& field, double scale = 1) {
   return mesh;
 }
 
-/// A shape with everything that trace_lines() reads.
+/// A shape with everything that trace_lines() reads, its curvature averaged over 1 % of the diagonal, so that
+/// what is said of lines on it does not hang on how large these balls are by default.
 inline OpenMesh::TriMesh shape(const std::string& name, int vertices, bool irregular = true) {
   ShapeOptions options;
   options.vertices = vertices;
   options.irregular = irregular;
   auto mesh = make_shape(name, options);
-  estimate_curvature(mesh);
+  const SurfaceRef surface = mesh;
+  CurvatureOptions curvature;
+  SmoothingOptions smoothing;
+  curvature.radius_fraction = smoothing.radius_fraction = 0.01 * surface.diagonal() / surface.extent();
+  estimate_curvature(mesh, curvature);
   flatten(mesh);
-  smooth_tensors(mesh);
+  smooth_tensors(mesh, smoothing);
   find_umbilics(mesh);
   return mesh;
 }

@@ -216,7 +216,7 @@ TEST_CASE("long plates and needles of boxes are remeshed in a moment", "[ugly]")
   check_sound(c);
   CHECK(c.faces <= 12);
   RemeshOptions options;
-  options.target_faces = 100;
+  options.target_faces = 80;
   options.features.automatic = false;
   for (const int length : {30, 300}) {
     auto mesh = box(length, 1, 1).read();

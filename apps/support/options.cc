@@ -48,9 +48,9 @@ void add_refine_option(Command& command, RefineFlags& flags) {
             if (!flags.automatic && !CLI::detail::lexical_cast(text, flags.options.max_edge_fraction))
               throw CLI::ValidationError("--refine", "'" + text + "' is neither a number nor auto");
           },
-          "Divide triangles first that are longer than this, a fraction of the diagonal, and over four times "
+          "Divide triangles first that are longer than this, a fraction of the extent, and over four times "
           "as "
-          "long as high; 0: none; auto: 0.05 where the input is a part (as for --feature-angle), else 0")
+          "long as high; 0: none; auto: 0.06 where the input is a part (as for --feature-angle), else 0")
       ->type_name("F")
       ->default_str("auto")
       ->group("Features");
@@ -92,10 +92,11 @@ void add_curvature_options(Command& command, CurvatureOptions& options) {
                                  "How curvature is measured", "Curvature");
   CLI::Transformer automatic(std::map<std::string, double>{{"auto", 0.0}});
   automatic.description("");  // the option's own says it
-  app.add_option("--radius", options.radius_fraction,
-                 "Radius of the ball that curvature is measured in, fraction of the bounding box diagonal; "
-                 "auto: 0.01, and "
-                 "larger with smoother normals where the surface is noisy")
+  app.add_option(
+         "--radius", options.radius_fraction,
+         "Radius of the ball that curvature is measured in, fraction of the extent (the diameter of the "
+         "smallest sphere around the surface); auto: 0.0125, and larger with smoother normals where the "
+         "surface is noisy")
       ->transform(automatic)
       ->type_name("R")
       ->group("Curvature");
@@ -134,7 +135,7 @@ void add_smoothing_options(Command& command, SmoothingOptions& options) {
       ->type_name("N")
       ->group("Smoothing");
   app.add_option("--smoothing-radius", options.radius_fraction,
-                 "Support of the filter, fraction of the bounding box diagonal")
+                 "Support of the filter, fraction of the extent")
       ->type_name("R")
       ->group("Smoothing");
   app.add_flag("--anisotropic-smoothing", options.anisotropic,
@@ -144,11 +145,14 @@ void add_smoothing_options(Command& command, SmoothingOptions& options) {
 
 void add_density_options(Command& command, EpsilonFlags& epsilon, TraceOptions& options) {
   CLI::App& app = command.arguments();
-  app.add_option("--epsilon", epsilon.epsilon,
-                 "Tolerated distance of an edge from the surface, fraction of the bounding box diagonal")
-      ->type_name("E")
+  auto* given = app.add_option("--epsilon", epsilon.epsilon,
+                               "Tolerated distance of an edge from the surface, fraction of the bounding box "
+                               "diagonal; 0: 0.00125 of the extent")
+                    ->type_name("E")
+                    ->group("Density");
+  app.add_flag("--absolute", epsilon.absolute, "Take --epsilon in model units")
+      ->needs(given)
       ->group("Density");
-  app.add_flag("--absolute", epsilon.absolute, "Take --epsilon in model units")->group("Density");
   add_choice<Follow>(
       app, "--follow", options.follow, {{"curvature", Follow::curvature}, {"min-abs", Follow::min_abs}},
       "What lines follow where the surface is saddle-shaped; min-abs: one family runs where it "
@@ -162,7 +166,7 @@ void add_density_options(Command& command, EpsilonFlags& epsilon, TraceOptions& 
       ->type_name("A")
       ->group("Density");
   app.add_option("--max-spacing", options.density.max_spacing_fraction,
-                 "No spacing above this, fraction of the bounding box diagonal")
+                 "No spacing above this, fraction of the extent")
       ->type_name("S")
       ->group("Density");
   app.add_option("--max-slope", options.density.max_slope,
@@ -242,8 +246,8 @@ void add_mesh_options(Command& command, MeshOptions& options, const std::string&
       ->group(heading);
   app.add_option(
          "--feature-tolerance", options.feature_tolerance,
-         "Features are followed this nearly whatever epsilon is, as a fraction of the diagonal; 0: 0.0004 "
-         "where they were asked for, no bound where they were found")
+         "Features are followed this nearly whatever epsilon is, as a fraction of the diagonal; 0: 0.00048 "
+         "of the extent where they were asked for, no bound where they were found")
       ->type_name("F")
       ->group(heading);
   app.add_option("--merge-fraction", options.merge_fraction,

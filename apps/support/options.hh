@@ -19,7 +19,7 @@ struct FeatureFlags {
   bool only_new = false;
 };
 struct EpsilonFlags {
-  double epsilon = 0.001;
+  double epsilon = 0;
   bool absolute = false;
 };
 
@@ -54,7 +54,7 @@ void tell_of_features(Command& command, const anisomesh::FeatureReport& report);
 /// Reads --feature-file; its vertices are those of the file, before anything was dropped on reading.
 /// \throw InvalidInput
 anisomesh::FeatureOptions resolve(const FeatureFlags& flags, const anisomesh::ReadReport& read);
-/// The fraction of the diagonal.
+/// The fraction of the diagonal; 0 where none is given.
 double resolve(const EpsilonFlags& flags, const anisomesh::SurfaceRef& surface);
 
 }  // namespace apps

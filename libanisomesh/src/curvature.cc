@@ -77,11 +77,10 @@ class Estimation {
  public:
   Estimation(const SurfaceRef& surface, const CurvatureOptions& options)
       : arrays_(surface),
-        normals_(arrays_,
-                 detail::smoothing_passes(
-                     arrays_, options.normal_fraction * options.radius_fraction * surface.diagonal())),
+        normals_(arrays_, detail::smoothing_passes(
+                              arrays_, options.normal_fraction * options.radius_fraction * surface.extent())),
         measures_(arrays_, normals_, options.estimator),
-        base_radius_(options.radius_fraction * surface.diagonal()),
+        base_radius_(options.radius_fraction * surface.extent()),
         radii_(static_cast<size_t>(arrays_.n_vertices())),
         result_(radii_.size()),
         donated_(radii_.size()) {
@@ -263,7 +262,7 @@ CurvatureReport estimate_curvature(const SurfaceRef& surface, const CurvatureOpt
   estimation.run(progress);
   write_properties(surface.connectivity(), estimation.normals(), estimation.result());
   report.normal_fraction = options.normal_fraction;
-  report.radius = options.radius_fraction * surface.diagonal();
+  report.radius = options.radius_fraction * surface.extent();
   report.enlarged_balls = estimation.enlarged_balls();
   report.degenerate_faces = estimation.degenerate_faces();
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

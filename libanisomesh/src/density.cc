@@ -10,6 +10,8 @@ namespace anisomesh {
 
 namespace {
 
+constexpr double kDefaultEpsilon = 0.00125;  // of the extent
+
 void require(bool fine, const char* option, const char* range, double value) {
   if (!fine)
     throw InvalidOption(std::string(option) + " must be " + range + ", but is " + std::to_string(value));
@@ -18,13 +20,17 @@ void require(bool fine, const char* option, const char* range, double value) {
 }  // namespace
 
 void DensityOptions::validate() const {
-  require(std::isfinite(epsilon_fraction) && epsilon_fraction > 0, "epsilon_fraction", "above 0",
-          epsilon_fraction);
+  require(std::isfinite(epsilon_fraction) && epsilon_fraction >= 0, "epsilon_fraction",
+          "above 0, or 0 for the default", epsilon_fraction);
   require(rho >= 0 && rho <= 1, "rho", "in [0, 1]", rho);
   require(adaptation >= 0 && adaptation <= 1, "adaptation", "in [0, 1]", adaptation);
   require(std::isfinite(max_spacing_fraction) && max_spacing_fraction > 0, "max_spacing_fraction", "above 0",
           max_spacing_fraction);
   require(std::isfinite(max_slope) && max_slope > 0, "max_slope", "above 0", max_slope);
+}
+
+double DensityOptions::epsilon(double diagonal, double extent) const {
+  return epsilon_fraction > 0 ? epsilon_fraction * diagonal : kDefaultEpsilon * extent;
 }
 
 double chord_spacing(double curvature, double epsilon) {
@@ -35,11 +41,11 @@ double chord_spacing(double curvature, double epsilon) {
   return std::isinf(radius) ? radius : 2 * std::sqrt(height * (2 * radius - height));
 }
 
-Density::Density(const DensityOptions& options, double diagonal, double mean_curvature)
+Density::Density(const DensityOptions& options, double diagonal, double extent, double mean_curvature)
     : options_(options),
-      epsilon_(options.epsilon_fraction * diagonal),
+      epsilon_(options.epsilon(diagonal, extent)),
       mean_curvature_(mean_curvature),
-      max_spacing_(options.max_spacing_fraction * diagonal) {
+      max_spacing_(options.max_spacing_fraction * extent) {
   options.validate();
 }
 

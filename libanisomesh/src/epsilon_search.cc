@@ -25,7 +25,7 @@ constexpr double kStalled = 0.2;
 /// But one step may also have met a bump in the count: so near to the target, a longer one shows which it is.
 constexpr double kNearTarget = 0.5;  ///< logarithm
 constexpr double kLongStep = 2;
-constexpr double kLowest = 1e-8, kHighest = 0.5;  ///< epsilon, fraction of the diagonal
+constexpr double kLowest = 1e-8, kHighest = 0.5;  ///< epsilon, fraction of the extent
 
 /// The epsilon for which the density asks for so many crossings.
 double epsilon_of(double wanted, const std::function<double(double)>& crossings) {

@@ -11,7 +11,7 @@ namespace anisomesh::detail {
 constexpr double kMet = 0.1;  ///< a count within this fraction of the target meets it
 
 struct EpsilonSearch {
-  /// How many crossings a density asks for, epsilon as a fraction of the diagonal: falls as epsilon grows.
+  /// How many crossings a density asks for, epsilon in the unit of make(): falls as epsilon grows.
   std::function<double(double epsilon)> crossings;
   struct Made {
     size_t count = 0;  ///< faces or vertices

@@ -20,7 +20,7 @@ constexpr double watched = 8, most_watched = 64;  // places for each side of the
 
 FitCurves::FitCurves(const SurfaceRef& surface, const FitMesh& mesh, const FitMatching& matching,
                      const std::vector<Vec3d>& points)
-    : mesh_(mesh), tolerance_(asked_feature_tolerance * surface.diagonal()), sides_at_(at(mesh.n_vertices)) {
+    : mesh_(mesh), tolerance_(asked_feature_tolerance * surface.extent()), sides_at_(at(mesh.n_vertices)) {
   for (size_t s = 0; s < mesh.sides.size(); ++s)
     if (mesh.sides[s].on_curve)
       for (const int v : {mesh.sides[s].from, mesh.sides[s].to})

@@ -83,7 +83,7 @@ FitMatching::Foot FitMatching::foot_of(const Vec3d& place, const Vec3d& normal, 
 
 void FitMatching::match_result(const FitTriangles& triangles, const std::vector<Vec3d>& points,
                                const FitPairs* before, FitPairs& pairs) const {
-  const double least = tiny * surface_.diagonal();
+  const double least = tiny * surface_.extent();
   double total = 0;
   for (const double a : triangles.area) total += a;
   const double share = total / (result_samples * static_cast<double>(triangles.corner.size()));

@@ -219,7 +219,7 @@ int FitMatching::polygon_of(int face) const {
 
 void FitMatching::match(const FitTriangles& triangles, const std::vector<Vec3d>& points,
                         const FitPairs* before, FitPairs& pairs) {
-  const double least = tiny * surface_.diagonal();
+  const double least = tiny * surface_.extent();
   pairs.n_input = samples_.size();
   if (pairs.pair.size() < pairs.n_input) pairs.pair.resize(pairs.n_input);
   tbb::parallel_for(tbb::blocked_range<size_t>(0, samples_.size(), 512), [&](const auto& range) {

@@ -8,7 +8,7 @@
 namespace anisomesh::detail {
 
 namespace {
-// Curvature times the diagonal: what is flat but for rounding has no directions.
+// Curvature times the extent: what is flat but for rounding has no directions.
 constexpr double least_bend = 1e-6;
 }  // namespace
 
@@ -37,7 +37,7 @@ double LineDirections::misalignment(const SurfacePoint& point, const Vec3d& alon
   const TangentFrame frame(normal / area);
   const Vec3d t = followed(in_frame(sum, frame), follow_);
   const double sure = orientation(t).certainty(), norm = deviator_norm(t);
-  if (!(sure > 0) || !(norm * surface_.diagonal() > least_bend)) return 0;
+  if (!(sure > 0) || !(norm * surface_.extent() > least_bend)) return 0;
   // The deviator and the edge, both by twice their angle.
   const double a = along | frame.u, b = along | frame.v, squared = a * a + b * b;
   if (!(squared > 0)) return 0;

@@ -45,7 +45,7 @@ class Stopwatch {
 /// What MeshOptions::for_fit multiplies.
 constexpr double fitted_chains = 1.5, fitted_cells = 2, fitted_alignment = 4;
 
-/// Leaves no option to be found elsewhere.
+/// Leaves no option of those that epsilon is the unit of to be found elsewhere.
 MeshOptions resolved(MeshOptions options, const OpenMesh::TriConnectivity& mesh) {
   if (options.cell_tolerance == 0)
     options.cell_tolerance = detail::recorded(mesh, property::cell_tolerance, 2.0);
@@ -55,10 +55,14 @@ MeshOptions resolved(MeshOptions options, const OpenMesh::TriConnectivity& mesh)
     options.alignment_weight *= fitted_alignment;
     options.for_fit = false;
   }
-  if (options.feature_tolerance == 0)
-    options.feature_tolerance =
-        detail::recorded(mesh, property::feature_tolerance, detail::asked_feature_tolerance);
   return options;
+}
+
+/// How nearly features are followed, model units.
+double feature_tolerance_of(const SurfaceRef& surface, const MeshOptions& options) {
+  if (options.feature_tolerance > 0) return options.feature_tolerance * surface.diagonal();
+  return surface.extent() * detail::recorded(surface.connectivity(), property::feature_tolerance,
+                                             detail::asked_feature_tolerance);
 }
 
 // Polygons that would be folded, concave or without area are given other chances with more samples around
@@ -67,6 +71,7 @@ constexpr size_t max_retries = 8;
 constexpr size_t patience = 4;           // retries, before vertices are given up for sound polygons
 constexpr double cells_at_features = 5;  // times the tolerance of features
 constexpr double tiny = 0.05;            // of epsilon: no edge need be as short
+constexpr double widest_merge = 0.0125;  // of the extent: chains that only bend within a share of infinity
 constexpr double around = 1.5;           // such a polygon: times its width
 
 // What is around a polygon: as far from it as it is wide, but for slivers, so that one along a whole side of
@@ -195,9 +200,9 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
   report_progress(progress, reached = 0.4);
 
   const double chain_tolerance = options.chain_tolerance * epsilon,
-               feature_tolerance = options.feature_tolerance * surface.diagonal();
+               feature_tolerance = feature_tolerance_of(surface, options);
   const detail::DecimationOptions decimation{
-      chain_tolerance, std::min(chain_tolerance, 0.01 * surface.diagonal()), feature_tolerance,
+      chain_tolerance, std::min(chain_tolerance, widest_merge * surface.extent()), feature_tolerance,
       options.merge_fraction, std::isfinite(epsilon) ? tiny * epsilon : 0};
   const detail::RegionOptions region_options{{options.max_degree, options.convex},
                                              options.cell_tolerance * epsilon,

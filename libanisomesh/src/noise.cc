@@ -9,7 +9,7 @@ namespace anisomesh::detail {
 
 namespace {
 
-constexpr double kDefaultRadius = 0.01, kLargestRadius = 0.06;  // fractions of the diagonal
+constexpr double kDefaultRadius = 0.0125, kLargestRadius = 0.075;  // fractions of the extent
 constexpr double kNormalFraction = 1.0 / 3;
 constexpr double kTolerated = 0.15;  // relative error of the curvature in balls of the default radius
 constexpr double kLeft = 0.2;     // of the noise of normals, once they are averaged over a third of the ball
@@ -66,7 +66,7 @@ int smoothing_passes(const SurfaceArrays& surface, double radius) {
 // (docs/curvature.md).
 NoiseChoice choose_by_noise(const SurfaceRef& surface) {
   const SurfaceArrays arrays(surface);
-  const double edge = mean_edge(arrays), radius = kDefaultRadius * surface.diagonal();
+  const double edge = mean_edge(arrays), radius = kDefaultRadius * surface.extent();
   const CornerNormals rough(arrays),
       smoothed(arrays, std::max(kFewestPasses, smoothing_passes(arrays, radius)));
   NoiseChoice choice;

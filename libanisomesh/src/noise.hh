@@ -6,7 +6,7 @@
 namespace anisomesh::detail {
 
 struct NoiseChoice {
-  double radius_fraction = 0.01, normal_fraction = 0;  ///< of CurvatureOptions
+  double radius_fraction = 0.0125, normal_fraction = 0;  ///< of CurvatureOptions
   double noise = 0;  ///< expected error of the curvature in balls of 1 % of the diagonal, relative
 };
 

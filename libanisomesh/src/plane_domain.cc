@@ -39,7 +39,8 @@ PlaneInput read_plane_input(const SurfaceRef& surface) {
 PlaneDomain::PlaneDomain(const SurfaceRef& surface, const PlaneInput& input, const DensityOptions& density,
                          Follow follow)
     : FaceDomain(surface.connectivity().n_faces(), input.umbilics, density,
-                 Density(density, surface.diagonal(), mean_curvature(surface, input.corner_tensors)),
+                 Density(density, surface.diagonal(), surface.extent(),
+                         mean_curvature(surface, input.corner_tensors)),
                  follow) {
   make_nodes(surface, input);
   set_across(surface, faces_);

@@ -47,7 +47,7 @@ class Refiner {
 };
 
 Refiner::Refiner(const SurfaceRef& surface, const RefineOptions& options)
-    : limit_(options.max_edge_fraction * surface.diagonal()),
+    : limit_(options.max_edge_fraction * surface.extent()),
       aspect_(options.min_aspect),
       budget_(options.max_triangles > 0 ? options.max_triangles
                                         : std::max(least_budget, 2 * surface.connectivity().n_faces())) {

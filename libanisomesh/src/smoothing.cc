@@ -106,7 +106,7 @@ SmoothingReport smooth_in_plane(const SurfaceRef& surface, const SmoothingOption
                                 const Progress& progress) {
   auto& mesh = surface.connectivity();
   const auto before = read_tensors(mesh);
-  const auto samples = samples_in_plane(surface, options.radius_fraction * surface.diagonal());
+  const auto samples = samples_in_plane(surface, options.radius_fraction * surface.extent());
   report_progress(progress, 0);
   const auto one_sided = one_sided_values(samples.cut, samples.neighbours, before);
   const auto filtered =
@@ -133,7 +133,7 @@ SmoothingReport smooth_on_surface(const SurfaceRef& surface, const SmoothingOpti
   std::vector<Vec6d> values = before;
   if (options.iterations > 0) {
     SurfaceField field = surface_field(surface, before);
-    const auto samples = samples_on_surface(surface, field, options.radius_fraction * surface.diagonal());
+    const auto samples = samples_on_surface(surface, field, options.radius_fraction * surface.extent());
     const auto filtered = filter_repeatedly(samples, std::move(field.tensor), options.iterations,
                                             options.anisotropic, progress);
     std::vector<Vec6d> at_nodes;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "anisomesh/errors.hh"
+#include "numerics/enclosing_sphere.hh"
 
 namespace anisomesh {
 
@@ -59,6 +60,7 @@ SurfaceRef::SurfaceRef(OpenMesh::TriConnectivity& connectivity, std::vector<Vec3
   const double longest = std::max({size[0], size[1], size[2]});  // squares may underflow or overflow
   diagonal_ = longest > 0 && std::isfinite(longest) ? longest * (size / longest).norm() : longest;
   refuse_extent(diagonal_);
+  extent_ = std::min(detail::enclosing_diameter(points_), diagonal_);
 }
 
 Vec3d position(const SurfaceRef& surface, const SurfacePoint& point) {

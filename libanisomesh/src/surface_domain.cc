@@ -60,7 +60,9 @@ SurfaceInput read_surface_input(const SurfaceRef& surface) {
 SurfaceDomain::SurfaceDomain(const SurfaceRef& surface, SurfaceInput input, const DensityOptions& density,
                              Follow follow)
     : FaceDomain(surface.connectivity().n_faces(), std::move(input.umbilics), density,
-                 Density(density, surface.diagonal(), mean_curvature(surface, input.corner_tensors)), follow),
+                 Density(density, surface.diagonal(), surface.extent(),
+                         mean_curvature(surface, input.corner_tensors)),
+                 follow),
       surface_(surface),
       unfolded_(surface, with_across(surface, faces_)),
       corner_tensors_(std::move(input.corner_tensors)) {

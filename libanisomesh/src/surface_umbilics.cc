@@ -118,7 +118,7 @@ class SectorBuilder {
 double negligible_deviator(const SurfaceRef& surface, const SurfaceField& field) {
   double largest = 0;
   for (const auto& tensor : field.tensor) largest = std::max(largest, frobenius_norm(tensor));
-  return std::max(1e-10 * largest, 1e-7 / surface.diagonal());
+  return std::max(1e-10 * largest, 1e-7 / surface.extent());
 }
 
 /// What an edge of a face brings in, from corner i to corner i + 1: the turn of the deviator, and twice what

@@ -69,7 +69,7 @@ size_t least_vertices(const OpenMesh::TriConnectivity& mesh) {
 class CrossingModel {
  public:
   CrossingModel(const SurfaceRef& surface, const DensityOptions& options)
-      : options_(options), diagonal_(surface.diagonal()) {
+      : options_(options), diagonal_(surface.diagonal()), extent_(surface.extent()) {
     const auto& mesh = surface.connectivity();
     patches_.resize(mesh.n_vertices());
     if (is_flattened(surface))
@@ -92,10 +92,11 @@ class CrossingModel {
     mean_curvature_ = total > 0 ? bent / total : 0;
   }
 
-  double count(double epsilon_fraction) const {
+  /// \param epsilon model units
+  double count(double epsilon) const {
     DensityOptions options = options_;
-    options.epsilon_fraction = epsilon_fraction;
-    const Density density(options, diagonal_, mean_curvature_);
+    options.epsilon_fraction = epsilon / diagonal_;
+    const Density density(options, diagonal_, extent_, mean_curvature_);
     double sum = 0;
     for (const Patch& patch : patches_)
       sum += patch.area / (density.min_line_spacing(patch.k_min, patch.k_max) *
@@ -127,7 +128,7 @@ class CrossingModel {
   }
 
   DensityOptions options_;
-  double diagonal_;
+  double diagonal_, extent_;
   double mean_curvature_ = 0;
   std::vector<Patch> patches_;
 };
@@ -160,6 +161,7 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   trace.validate();
   mesh.validate();
 
+  const double diagonal = surface.diagonal();
   const double wanted = static_cast<double>(std::max(target.target_faces, target.target_vertices));
   TraceOptions options = trace;
   MeshOptions polygons = mesh;
@@ -183,7 +185,7 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     done.trace = trace_lines(surface, options, sub_progress(progress, from, from + 0.5 * span));
     done.isotropic = place_isotropic_samples(surface, options,
                                              sub_progress(progress, from + 0.5 * span, from + 0.6 * span));
-    done.epsilon_fraction = options.density.epsilon_fraction;
+    done.epsilon_fraction = options.density.epsilon(diagonal, surface.extent()) / diagonal;
     if (wanted > 0) {  // for a build_polygons() to come
       connectivity.property(provide_property(connectivity, property::cell_tolerance)) =
           polygons.cell_tolerance;
@@ -213,9 +215,10 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   if (balanced) search.enough_below = kEnoughBelow, search.enough_above = kEnoughAbove;
   // For as many crossings there are fewer polygons where tolerances are wider.
   const double share = !mesh.for_fit ? 1 : target.target_faces > 0 ? kFacesForFit : kForFit;
-  search.crossings = [&](double epsilon) { return share * model.count(epsilon); };
+  // In fractions of the extent, so that the same ones are tried however the surface is turned.
+  search.crossings = [&](double epsilon) { return share * model.count(epsilon * surface.extent()); };
   search.make = [&, made = 0](double epsilon, bool any) mutable {
-    options.density.epsilon_fraction = epsilon;
+    options.density.epsilon_fraction = epsilon * surface.extent() / diagonal;
     is_last_best = false;
     ++made;
     auto attempt = run(1 - std::pow(0.6, made - 1), 1 - std::pow(0.6, made), any);
@@ -234,11 +237,12 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   done = of_best;
   done.attempts = found.attempts;
   done.tried = found.tried;
+  for (Attempt& attempt : done.tried) attempt.epsilon_fraction *= surface.extent() / diagonal;
   done.target_met = found.met;
   if (!is_last_best) {
     write_lines(surface, lines_of_best);
     const auto epsilon = provide_property(surface.connectivity(), property::epsilon);
-    surface.connectivity().property(epsilon) = done.epsilon_fraction * surface.diagonal();
+    surface.connectivity().property(epsilon) = done.epsilon_fraction * diagonal;
   }
   if (balanced && found.met) {  // what is farther off stays so: features, say, ask for as many
     const auto leave = [&](const auto& declaration, size_t count) {

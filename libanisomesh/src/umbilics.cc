@@ -29,7 +29,7 @@ CornerDeviators corner_deviators(const SurfaceRef& surface,
   double largest = 0;
   for (const auto& face : tensors)
     for (const auto& tensor : face) largest = std::max(largest, frobenius_norm(tensor));
-  const double negligible = std::max(1e-10 * largest, 1e-7 / surface.diagonal());
+  const double negligible = std::max(1e-10 * largest, 1e-7 / surface.extent());
   CornerDeviators result(tensors.size());
   for (size_t f = 0; f < tensors.size(); ++f)
     for (size_t i = 0; i < 3; ++i)

@@ -119,7 +119,8 @@ usage)
   done
   anisomesh-shapes -q dome --vertices 300 -o dome.off
   expect 2 "--nonsense" anisomesh-remesh dome.off -o x.obj --nonsense
-  expect 2 "epsilon" anisomesh-remesh dome.off -o x.obj --epsilon 0
+  expect 2 "epsilon" anisomesh-remesh dome.off -o x.obj --epsilon -0.001
+  expect 2 "epsilon" anisomesh-remesh dome.off -o x.obj --absolute
   expect 2 "rho" anisomesh-remesh dome.off -o x.obj --rho 1.5
   expect 2 "anisomesh-remesh: --max-degree is" anisomesh-remesh dome.off -o x.obj --max-degree 2
   expect 2 "--target" anisomesh-remesh dome.off -o x.obj --target-faces 100 --target-vertices 100

@@ -13,9 +13,9 @@ enum class CurvatureEstimator {
 
 struct CurvatureOptions {
   CurvatureEstimator estimator = CurvatureEstimator::corrected_normal_current;
-  /// Radius of the ball around a vertex, fraction of the bounding box diagonal; >= 0. 0: by the noise of the
-  /// surface, which decides normal_fraction too; 0.01 where there is little
-  double radius_fraction = 0.01;
+  /// Radius of the ball around a vertex, fraction of SurfaceRef::extent(); >= 0. 0: by the noise of the
+  /// surface, which decides normal_fraction too; 0.0125 where there is little
+  double radius_fraction = 0.0125;
   /// Normals are averaged over about this fraction of the ball's radius before anything else, against noise;
   /// [0, 1]
   double normal_fraction = 0;
@@ -25,7 +25,8 @@ struct CurvatureOptions {
 struct CurvatureReport {
   double radius = 0;           ///< in model units
   double normal_fraction = 0;  ///< as used
-  double noise = 0;  ///< where the radius is automatic: expected error of curvature in balls of 1 %, relative
+  double noise = 0;  ///< where the radius is automatic: expected error of curvature in balls of the default
+                     ///< radius, relative
   size_t enlarged_balls = 0;    ///< vertices whose ball was enlarged to hold their 1-ring
   size_t degenerate_faces = 0;  ///< faces without area, left out of the sums
   double seconds = 0;

@@ -14,7 +14,7 @@ struct FeatureOptions {
       0;  ///< tag an edge when its faces' normals differ by more than this; 0 tags none by angle; [0, 180)
   /// Where nothing else says what a feature is (no angle, no edges, no tags that are kept): tag what turns by
   /// more than 40 degrees if FeatureReport::is_mechanical(). Such features are followed as nearly as epsilon
-  /// asks for, and not to 0.04 % of the diagonal as those that somebody asked for.
+  /// asks for, and not to 0.048 % of the extent as those that somebody asked for.
   bool automatic = true;
   std::vector<std::pair<int, int>> edges;  ///< vertex index pairs to tag; each must be an edge of the mesh
   bool keep_existing = true;               ///< keep the tags that are already on the mesh

@@ -37,8 +37,8 @@ struct MeshOptions {
   /// makes up for the rest. remesh() sets it where it fits
   bool for_fit = false;
   /// Features are followed this nearly, whatever epsilon is, fraction of the diagonal; >= 0.
-  /// 0: what the feature stage has recorded, 4e-4 for features that were asked for and no bound for those
-  /// that it found by itself
+  /// 0: what the feature stage has recorded, 4.8e-4 of the extent for features that were asked for and no
+  /// bound for those that it found by itself
   double feature_tolerance = 0;
   bool join_lines = true;        ///< two triangles may become a quad across an edge of a line (max_degree 4)
   double merge_fraction = 0.2;   ///< contract edges shorter than this fraction of those they continue; [0, 1)

@@ -84,7 +84,7 @@ inline constexpr OnFaces<Vec3d> umbilic_position{"anisomesh:umbilic_position", "
 
 // --- written by tag_features()
 // ------------------------------------------------------------------------------------
-/// How near a result is to follow the features at least, whatever epsilon is, fraction of the diagonal; above
+/// How near a result is to follow the features at least, whatever epsilon is, fraction of the extent; above
 /// epsilon it is no bound.
 inline constexpr OnMesh<double> feature_tolerance{"anisomesh:feature_tolerance", "tag_features"};
 

@@ -9,8 +9,8 @@
 namespace anisomesh {
 
 struct RefineOptions {
-  /// Triangles are divided until their edges are no longer, fraction of the diagonal; 0: none; [0, 1].
-  double max_edge_fraction = 0.05;
+  /// Triangles are divided until their edges are no longer, fraction of the extent; 0: none; [0, 1].
+  double max_edge_fraction = 0.06;
   double min_aspect = 4;     ///< only those so many times as long as they are high; >= 1
   size_t max_triangles = 0;  ///< there will be no more; 0: twice as many as there are, but at least 20,000
   void validate() const;     ///< \throw InvalidOption

@@ -10,10 +10,10 @@
 namespace anisomesh {
 
 struct SmoothingOptions {
-  int iterations = 3;             ///< passes of the filter, >= 0
-  double radius_fraction = 0.01;  ///< support of the Gaussian on the surface, fraction of the diagonal; > 0
-  bool anisotropic = false;       ///< weigh neighbours also by likeness of their tensors: keeps more detail
-  void validate() const;          ///< \throw InvalidOption
+  int iterations = 3;               ///< passes of the filter, >= 0
+  double radius_fraction = 0.0125;  ///< support of the Gaussian, fraction of SurfaceRef::extent(); > 0
+  bool anisotropic = false;         ///< weigh neighbours also by likeness of their tensors: keeps more detail
+  void validate() const;            ///< \throw InvalidOption
 };
 
 struct SmoothingReport {

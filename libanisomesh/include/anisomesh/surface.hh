@@ -35,8 +35,14 @@ class SurfaceRef {
   }
   const std::vector<Vec3d>& points() const { return points_; }
 
-  /// Length of the diagonal of the axis-aligned bounding box: the unit of every `_fraction` option.
+  /// Length of the diagonal of the axis-aligned bounding box: the unit of distances that are asked for or
+  /// reported. It changes by up to a factor of sqrt(3) where the surface is turned.
   double diagonal() const { return diagonal_; }
+
+  /// Diameter of the smallest sphere around all points: the unit of what the stages choose by themselves, the
+  /// same however the surface lies. At most the diagonal; as much for a box, 0.7 to 0.95 of it for most
+  /// scans.
+  double extent() const { return extent_; }
 
   /// The corners of a face, starting at the to-vertex of its halfedge: the order barycentric coordinates
   /// refer to.
@@ -71,7 +77,7 @@ class SurfaceRef {
 
   OpenMesh::TriConnectivity* connectivity_;
   std::vector<Vec3d> points_;
-  double diagonal_ = 0;
+  double diagonal_ = 0, extent_ = 0;
   const detail::CanonicalCopy* canonical_copy_ = nullptr;
 };
 
