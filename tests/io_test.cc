@@ -1,6 +1,7 @@
 #include "anisomesh/io.hh"
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
+#include <cctype>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -134,6 +135,7 @@ TEST_CASE("the dialects of OBJ and OFF", "[io]") {
        "# a comment\nCOFF\n\n4 2 5\n0 0 0 9 9 9\n1 0 0 9 9 9\n1 1 0 1 1 1\n0 1 0 1 1 1\n"
        "3 0 1 2 1 0 0\n3 0 2 3 0.1\n");
   same("dos.off", "OFF\r\n4 2 0\r\n0 0 0\r\n1 0 0\r\n1 1 0\r\n0 1 0\r\n3 0 1 2\r\n3 0 2 3");
+  same("mac.off", "OFF\r4 2 0\r# a comment\r0 0 0\r1 0 0\r1 1 0\r0 1 0\r3 0 1 2\r3 0 2 3\r");
   same("slashes.obj",
        "v 0 0 0\nv +1 0 0 1.0\nvt 0 0\nvn 0 0 1\ng x\nusemtl y\nv 1e0 1. 0\nv 0 1 0\n"
        "f 1/1/1 2//1 3/1\nf 1 3 4 # last\n");
@@ -168,6 +170,18 @@ TEST_CASE("PLY as text and as bytes of either order", "[io]") {
   }
   put(folder / "big.ply", big);
   CHECK(same_mesh(plain, read_surface(folder / "big.ply")));
+  const std::string unseen =
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_index\nend_header\n"
+      "0 0 0\nnan nan nan\n1 0 0\n1 1 0\n0 1 0\n";
+  put(folder / "unseen.ply", unseen + "3 0 2 3\n3 0 3 4\n");
+  CHECK(same_mesh(plain, read_surface(folder / "unseen.ply")));
+  put(folder / "nan.ply", unseen + "3 0 1 3\n3 0 3 4\n");
+  CHECK_THAT(read_message(folder / "nan.ply"), Catch::Contains("vertex 1: a coordinate is not finite"));
+  put(folder / "unknown.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int corners\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  CHECK_THAT(read_message(folder / "unknown.ply"), Catch::Contains("'vertex_indices'"));
 }
 
 TEST_CASE("STL corners at one place become one vertex, in text and in bytes", "[io]") {
@@ -195,6 +209,10 @@ TEST_CASE("STL corners at one place become one vertex, in text and in bytes", "[
     CHECK(mesh.n_faces() == 2);
     CHECK(report.merged_vertices == 2);
   }
+  std::string capitals = text + "endsolid a\n";
+  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  put(folder / "capitals.stl", capitals);
+  CHECK(read_surface(folder / "capitals.stl").n_faces() == 2);
   put(folder / "half.stl", bytes.substr(0, 150));
   CHECK_THAT(read_message(folder / "half.stl"), Catch::Contains("is it complete?"));
   put(folder / "half_text.stl", text);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -118,7 +119,7 @@ class Body {
   double read_text() {
     while (scanner_.at_end_of_line())
       if (!scanner_.next_line()) fail_at_end();
-    return scanner_.number("a number");
+    return scanner_.any_number("a number");
   }
 
   double read_bytes(Type type) {
@@ -188,21 +189,23 @@ void read_vertex(Body& body, const Element& element, Soup& soup) {
       const double value = body.read(property.type);
       if (property.is_list || property.name.size() != 1 || property.name[0] < 'x' || property.name[0] > 'z')
         continue;
-      if (!std::isfinite(value)) body.fail("a coordinate is not finite");
       p[property.name[0] - 'x'] = value;
     }
   }
   soup.points.push_back(p);
 }
 
+bool is_corners(const PlyProperty& property) {
+  return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
 void read_face(Body& body, const Element& element, size_t n_points, Soup& soup) {
   for (const auto& property : element.properties) {
-    const bool is_corners =
-        property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+    const bool wanted = is_corners(property);
     const size_t count = values_of(body, property);
     for (size_t i = 0; i < count; ++i) {
       const double value = body.read(property.type);
-      if (!is_corners) continue;
+      if (!wanted) continue;
       if (!(value >= 0 && value < static_cast<double>(n_points)) || value != std::floor(value))
         body.fail("it names a vertex that is not there; vertices count from 0 to " +
                   std::to_string(static_cast<long long>(n_points) - 1));
@@ -213,6 +216,21 @@ void read_face(Body& body, const Element& element, size_t n_points, Soup& soup) 
     soup.corners.resize(soup.begins.back());  // points and segments are no part of a surface
   else
     soup.end_face();
+}
+
+/// Range scanners write places that they have not seen as nan, which does no harm where no face uses them.
+void require_finite(const Soup& soup, const std::string& path) {
+  const auto is_finite = [](const Vec3d& p) {
+    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+  };
+  for (const int v : soup.corners)
+    if (!is_finite(soup.points[static_cast<size_t>(v)]))
+      throw InvalidInput(path + ": vertex " + std::to_string(v) + ": a coordinate is not finite");
+}
+
+void require_corners(const Element& face, const std::string& path) {
+  if (face.count == 0 || std::any_of(face.properties.begin(), face.properties.end(), is_corners)) return;
+  throw InvalidInput(path + ": the faces have no list 'vertex_indices' or 'vertex_index'");
 }
 
 size_t require_coordinates(const Header& header, const std::string& path) {
@@ -247,6 +265,7 @@ Soup read_ply(const std::string& text, const std::string& path) {
   Body body(scanner, header.encoding, path);
   for (const auto& element : header.elements) {
     if (element.name == "tristrips") throw InvalidInput(path + ": triangle strips are not read; write faces");
+    if (element.name == "face") require_corners(element, path);
     if (element.properties.empty()) continue;
     for (size_t i = 0; i < element.count; ++i) {
       body.begin(element, i);
@@ -262,6 +281,7 @@ Soup read_ply(const std::string& text, const std::string& path) {
       }
     }
   }
+  require_finite(soup, path);
   return soup;
 }
 

@@ -22,13 +22,14 @@ class Scanner {
         comment_(comment),
         line_(first_line - 1) {}
 
-  /// Moves to the next line that holds anything; false at the end of the file.
+  /// Moves to the next line that holds anything; false at the end of the file. Lines end with LF, CR LF or
+  /// CR.
   bool next_line() {
     while (next_ != end_) {
       at_ = next_;
       const char* stop = at_;
       const char* text_end = nullptr;
-      while (stop != end_ && *stop != '\n') {
+      while (stop != end_ && *stop != '\n' && !(*stop == '\r' && stop + 1 != end_ && stop[1] != '\n')) {
         if (*stop == comment_ && !text_end) text_end = stop;
         ++stop;
       }
@@ -57,6 +58,16 @@ class Scanner {
 
   /// The next word as a finite number.
   double number(const char* what) {
+    const char* begin = at_;
+    const double value = any_number(what);
+    if (std::isfinite(value)) return value;
+    at_ = begin;
+    skip_blanks();
+    fail(std::string("expected ") + what + " that is finite" + rest());
+  }
+
+  /// The next word as a number, which may be nan or inf.
+  double any_number(const char* what) {
     skip_blanks();
     if (at_ != line_end_ && *at_ == '+') ++at_;
     double value = 0;
@@ -64,7 +75,6 @@ class Scanner {
     if (error == std::errc::result_out_of_range) value = std::strtod(std::string(at_, stop).c_str(), nullptr);
     if (error == std::errc::invalid_argument || (stop != line_end_ && !is_blank(*stop)))
       fail(std::string("expected ") + what + rest());
-    if (!std::isfinite(value)) fail(std::string("expected ") + what + " that is finite" + rest());
     at_ = stop;
     return value;
   }

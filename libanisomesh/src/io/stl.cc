@@ -44,12 +44,28 @@ class Merger {
   size_t corners_ = 0;
 };
 
+/// Keywords may be in capitals.
+std::string lower(std::string_view word) {
+  std::string result(word);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
+/// Whether a file that is no binary one by its size begins as a text one, with anything in it.
+bool is_text(const std::string& text) {
+  const size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string::npos || lower(std::string_view(text).substr(begin, 5)) != "solid") return false;
+  const std::string all = lower(text);
+  return all.find("facet", begin) != std::string::npos || all.find("endsolid", begin) != std::string::npos;
+}
+
 void read_ascii(const std::string& text, const std::string& path, Soup& soup, Merger& merger) {
   Scanner scanner(text, path, '\0');
   size_t corners = 0;
   bool ended = false;
   while (scanner.next_line()) {
-    const auto keyword = scanner.word();
+    const std::string keyword = lower(scanner.word());
     if (keyword == "vertex") {
       const double x = scanner.number("a coordinate"), y = scanner.number("a coordinate");
       merger.add({x, y, scanner.number("a coordinate")});
@@ -65,7 +81,7 @@ void read_ascii(const std::string& text, const std::string& path, Soup& soup, Me
     } else if (keyword == "solid") {
       ended = false;
     } else if (keyword != "facet" && keyword != "outer" && keyword != "endfacet") {
-      scanner.fail("expected a keyword of STL, found '" + std::string(keyword.substr(0, 24)) + "'");
+      scanner.fail("expected a keyword of STL, found '" + keyword.substr(0, 24) + "'");
     }
   }
   if (!ended) scanner.fail_at_end("there is no 'endsolid'");
@@ -96,9 +112,7 @@ Soup read_stl(const std::string& text, const std::string& path, ReadReport& repo
   // A binary file may begin with "solid" too: its size decides.
   if (text.size() >= 84 && text.size() == 84 + 50 * static_cast<size_t>(facets)) {
     read_binary(text, path, soup, merger);
-  } else if (text.find("solid") == text.find_first_not_of(" \t\r\n") &&
-             text.find("solid") != std::string::npos &&
-             (text.find("facet") != std::string::npos || text.find("endsolid") != std::string::npos)) {
+  } else if (is_text(text)) {
     read_ascii(text, path, soup, merger);
   } else if (text.size() >= 84) {
     throw InvalidInput(path + ": the size is " + std::to_string(text.size()) +
