@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "anisomesh/curvature.hh"
 #include "anisomesh/errors.hh"
 #include "anisomesh/features.hh"
 #include "anisomesh/properties.hh"
@@ -129,6 +130,7 @@ void run(const std::filesystem::path& path, const Settings& settings, bench::Bar
     report.features = tagged;
     CompareOptions compare_options;
     compare_options.samples = 50000;
+    estimate_curvature(mesh, options.curvature);  // what the alignment is measured against
     const Comparison c = compare(mesh, result, compare_options);
     const double features = covered_features(mesh, result);
     std::printf("| %s | %zu | %d | %zu | %zu | %.0f | %.4f | %.3f | %.1f | %zu | %.1f | %zu | %zu | %.2f |\n",
