@@ -39,16 +39,41 @@ FarMoves::FarMoves(const ReferenceSurface& reference, const FitState& fit, const
   for (size_t p = 0; p < far_.size(); ++p)
     for (int t = triangles.first[p]; t < triangles.first[p + 1]; ++t) polygon_of[at(t)] = static_cast<int>(p);
   for (const double a : triangles.area) area_ += a;
-  for (const FitPair& pair : fit.pairs())
-    if (pair.triangle >= 0) {
-      double& far = far_[at(polygon_of[at(pair.triangle)])];
-      far = std::max(far, pair.distance);
-    }
+  limit_ = far_over_rms * std::sqrt(0.5 * fit.energy());
+  measure(polygon_of);
   for (const double far : far_) limit_ = std::max(limit_, far_share * far);
-  limit_ = std::max(limit_, far_over_rms * std::sqrt(0.5 * fit.energy()));
   for (size_t i = 0; i < n_input; ++i) {
     const int t = fit.pairs()[i].triangle;
     if (t >= 0) own_[at(polygon_of[at(t)])].push_back(static_cast<int>(i));
+  }
+}
+
+// Of what the fit sees far off: a sample may be matched with one side of a crevice and lie on the other, as
+// far from it as nothing really is, beside which no other place would be far.
+void FarMoves::measure(const std::vector<int>& polygon_of) {
+  const FitTriangles& triangles = fit_.triangles();
+  const auto& samples = fit_.matching().samples();
+  const TriangleTree result(fit_.points(), triangles.corner);
+  std::vector<int> distant;
+  for (size_t i = 0; i < fit_.pairs().size(); ++i)
+    if (fit_.pairs()[i].triangle >= 0 && fit_.pairs()[i].distance > limit_)
+      distant.push_back(static_cast<int>(i));
+  for (const int i : distant) {
+    const FitPair& pair = fit_.pairs()[at(i)];
+    int triangle = pair.triangle;
+    double squared = 0;
+    if (at(i) < samples.size()) {
+      const auto nearest = result.closest(samples[at(i)].place);
+      triangle = nearest.triangle;
+      squared = nearest.squared_distance;
+    } else {
+      const Triangle& corner = triangles.corner[at(triangle)];
+      Vec3d place(0, 0, 0);
+      for (size_t k = 0; k < 3; ++k) place += pair.barycentric[k] * fit_.points()[at(corner[k])];
+      squared = reference_.tree.closest(place).squared_distance;
+    }
+    double& far = far_[at(polygon_of[at(triangle)])];
+    far = std::max(far, std::sqrt(squared));
   }
 }
 

@@ -24,6 +24,7 @@ class FarMoves {
     double squared = 0, largest = 0;
   };
   struct Place;
+  void measure(const std::vector<int>& polygon_of);
   std::vector<std::vector<int>> places(const PatchMesh& mesh) const;
   PatchMove partition(const PatchMesh& mesh, const PatchMesh::Patch& patch, Place& place) const;
   double cost(const Vec3d& a, const Vec3d& b, const Vec3d& c, double most) const;
@@ -36,7 +37,7 @@ class FarMoves {
   const double triangle_cost_;
   double limit_ = 0;                   // farther is far
   double area_ = 0;                    // of the result
-  std::vector<double> far_;            // largest distance of each polygon, both ways
+  std::vector<double> far_;            // largest distance of each polygon, both ways, if beyond the limit
   std::vector<std::vector<int>> own_;  // samples of the input beside each polygon that is far
 };
 
