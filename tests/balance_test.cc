@@ -16,9 +16,11 @@
 #include "anisomesh/io.hh"
 #include "anisomesh/mesher.hh"
 #include "anisomesh/properties.hh"
+#include "anisomesh/remesh.hh"
 #include "anisomesh/smoothing.hh"
 #include "catch.hh"
 #include "data.hh"
+#include "far_moves.hh"
 #include "fitted.hh"
 #include "sound_result.hh"
 
@@ -317,4 +319,26 @@ TEST_CASE("the balance folds nothing where the input is folded as finely as the 
     check_sound(balanced);
   }
   CHECK(std::exp(farther / 3) < 1.05);
+}
+
+// Samples of femur's crevices are matched with the wrong side of them.
+TEST_CASE("what counts as far is no farther than the ruler sees", "[balance]") {
+  const auto path = demo_mesh("femur.off");
+  if (!path) return skip("femur.off");
+  auto mesh = read_surface(*path);
+  RemeshOptions options;
+  options.target_faces = 2000;
+  options.fit.enabled = false;
+  auto result = remesh(mesh, options);
+  const SurfaceRef surface(mesh);
+  const detail::FitInput input(surface);
+  const FitOptions fit;
+  const detail::FitState state(surface, input, result, fit);
+  const detail::ReferenceSurface reference(surface);
+  const BalanceOptions balance;
+  const detail::FarMoves far(reference, state, balance);
+  const double rms = std::sqrt(0.5 * state.energy());
+  REQUIRE(far.limit() > 0);
+  CHECK(far.limit() <=
+        std::max(6.001 * rms, 0.5001 * compare(mesh, result).two_sided.hausdorff * surface.diagonal()));
 }

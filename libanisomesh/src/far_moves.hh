@@ -18,6 +18,8 @@ class FarMoves {
   FarMoves(const ReferenceSurface& reference, const FitState& fit, const BalanceOptions& options);
   /// Those that lower the largest distance of their patch by a fifth, and the error, the farthest first.
   std::vector<PatchMove> repartitions(const PatchMesh& mesh) const;
+  /// Farther is far, model units.
+  double limit() const { return limit_; }
 
  private:
   struct Error {
