@@ -60,19 +60,16 @@ void FarMoves::measure(const std::vector<int>& polygon_of) {
       distant.push_back(static_cast<int>(i));
   for (const int i : distant) {
     const FitPair& pair = fit_.pairs()[at(i)];
-    int triangle = pair.triangle;
     double squared = 0;
     if (at(i) < samples.size()) {
-      const auto nearest = result.closest(samples[at(i)].place);
-      triangle = nearest.triangle;
-      squared = nearest.squared_distance;
+      squared = result.closest(samples[at(i)].place).squared_distance;
     } else {
-      const Triangle& corner = triangles.corner[at(triangle)];
+      const Triangle& corner = triangles.corner[at(pair.triangle)];
       Vec3d place(0, 0, 0);
       for (size_t k = 0; k < 3; ++k) place += pair.barycentric[k] * fit_.points()[at(corner[k])];
       squared = reference_.tree.closest(place).squared_distance;
     }
-    double& far = far_[at(polygon_of[at(triangle)])];
+    double& far = far_[at(polygon_of[at(pair.triangle)])];
     far = std::max(far, std::sqrt(squared));
   }
 }
