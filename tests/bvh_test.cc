@@ -51,6 +51,28 @@ TEST_CASE("the tree finds what a look at every triangle finds", "[bvh]") {
   }
 }
 
+TEST_CASE("of triangles that are as near the first is taken, wherever they lie", "[bvh]") {
+  // A fan: all are as near to what is above its tip, but for rounding.
+  Numbers random;
+  for (int i = 0; i < 50; ++i) {
+    const Vec3d axis = (random.point() - Vec3d(0.5, 0.5, 0.5)).normalized(), place = random.point();
+    const double angle = 6 * random();
+    const auto turned = [&](const Vec3d& p) {
+      return place + std::cos(angle) * p + std::sin(angle) * (axis % p) +
+             (1 - std::cos(angle)) * (axis | p) * axis;
+    };
+    std::vector<Vec3d> points{turned({0, 0, 0})};
+    std::vector<Triangle> triangles;
+    for (int k = 0; k < 24; ++k) {
+      points.push_back(turned({std::cos(0.7 * k), std::sin(0.7 * k), -0.5}));
+      if (k > 0) triangles.push_back({0, k, k + 1});
+    }
+    const auto found = TriangleTree(points, triangles).closest(turned({0, 0, 0.3}));
+    CHECK(found.triangle == 0);
+    CHECK(std::sqrt(found.squared_distance) == Approx(0.3).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("no point of a triangle is nearer than the closest one", "[bvh]") {
   Numbers random;
   for (int i = 0; i < 2000; ++i) {

@@ -1,6 +1,7 @@
 #include "numerics/bvh.hh"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace anisomesh::detail {
@@ -8,6 +9,7 @@ namespace anisomesh::detail {
 namespace {
 
 constexpr int items_a_leaf = 4;
+constexpr double kRounding = 1e-9, kRoundingOfSize = 1e-12;
 
 std::vector<Box> boxes_of(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles) {
   std::vector<Box> boxes(triangles.size());
@@ -109,9 +111,14 @@ Vec3d closest_barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const 
 }
 
 TriangleTree::TriangleTree(std::vector<Vec3d> points, std::vector<Triangle> triangles)
-    : points_(std::move(points)), triangles_(std::move(triangles)), boxes_(boxes_of(points_, triangles_)) {}
+    : points_(std::move(points)), triangles_(std::move(triangles)), boxes_(boxes_of(points_, triangles_)) {
+  Box box;
+  for (const Vec3d& p : points_) box.add(p);
+  if (!points_.empty()) rounding_ = kRoundingOfSize * (box.high - box.low).norm();
+}
 
-void TriangleTree::try_triangle(int triangle, const Vec3d& p, double& limit, ClosestPoint& best) const {
+void TriangleTree::try_triangle(int triangle, const Vec3d& p, double& least, double& limit,
+                                ClosestPoint& best) const {
   const Triangle& corner = triangles_[static_cast<size_t>(triangle)];
   const Vec3d &a = points_[static_cast<size_t>(corner[0])], &b = points_[static_cast<size_t>(corner[1])],
               &c = points_[static_cast<size_t>(corner[2])];
@@ -120,7 +127,9 @@ void TriangleTree::try_triangle(int triangle, const Vec3d& p, double& limit, Clo
   const Vec3d point = a + barycentric[1] * (b - a) + barycentric[2] * (c - a);
   const double distance = (point - p).sqrnorm();
   if (!(distance < limit)) return;
-  limit = distance;
+  const double as_near = std::sqrt(distance) * (1 + kRounding) + rounding_, squared = as_near * as_near;
+  if (distance < least) least = distance, limit = std::min(limit, squared);
+  if (triangle > best.triangle && best.triangle >= 0 && squared >= best.squared_distance) return;
   best = {triangle, barycentric, point, distance};
 }
 

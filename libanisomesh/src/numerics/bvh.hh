@@ -102,7 +102,8 @@ struct ClosestPoint {
   double squared_distance = std::numeric_limits<double>::infinity();
 };
 
-/// Closest points on a soup of triangles. Ties go to the triangle met first, which depends on the soup only.
+/// Closest points on a soup of triangles. Of those that are as near but for rounding, as beside a common
+/// side, the one with the lowest number is taken, wherever the soup lies.
 class TriangleTree {
  public:
   TriangleTree(std::vector<Vec3d> points, std::vector<Triangle> triangles);
@@ -115,9 +116,11 @@ class TriangleTree {
   template <class Accept>
   ClosestPoint closest_if(const Vec3d& p, double bound, Accept accept) const {
     ClosestPoint best;
+    double least = bound;  // squared distance of the nearest so far
     boxes_.nearest(p, bound, [&](int triangle, double& limit) {
-      if (accept(triangle)) try_triangle(triangle, p, limit, best);
+      if (accept(triangle)) try_triangle(triangle, p, least, limit, best);
     });
+    if (best.triangle >= 0) best.squared_distance = least;
     return best;
   }
 
@@ -125,11 +128,12 @@ class TriangleTree {
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
  private:
-  void try_triangle(int triangle, const Vec3d& p, double& limit, ClosestPoint& best) const;
+  void try_triangle(int triangle, const Vec3d& p, double& least, double& limit, ClosestPoint& best) const;
 
   std::vector<Vec3d> points_;
   std::vector<Triangle> triangles_;
   BoxTree boxes_;
+  double rounding_ = 0;  // of a distance
 };
 
 }  // namespace anisomesh::detail
