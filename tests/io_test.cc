@@ -242,6 +242,24 @@ TEST_CASE("a soup is cleaned, and the report says how", "[io]") {
     CHECK(report.degenerate_faces == 1);
     CHECK(report.vertex_of == std::vector<int>{-1, 0, 1, 2, 3});
   }
+  SECTION("pieces without any area go; faces without area in a piece that has some stay") {
+    put(folder / "x.off",
+        "OFF\n9 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n.5 0 0\n5 5 5\n6 5 5\n7 5 5\n8 5 5\n"
+        "3 5 6 7\n3 0 4 2\n3 4 1 2\n3 0 2 3\n3 5 7 8\n3 0 1 4\n");
+    const auto mesh = read_surface(folder / "x.off", &report);
+    CHECK(report.flat_faces == 2);
+    CHECK(mesh.n_faces() == 4);
+    CHECK(mesh.n_vertices() == 5);
+    CHECK(report.vertex_of == std::vector<int>{0, 1, 2, 3, 4, -1, -1, -1, -1});
+  }
+  SECTION("a flat piece on the edge of a surface does not cut it open") {
+    put(folder / "x.off",
+        "OFF\n5 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n.5 .5 0\n3 0 1 2\n3 0 2 3\n3 0 2 4\n3 2 0 4\n");
+    const auto mesh = read_surface(folder / "x.off", &report);
+    CHECK(mesh.n_faces() == 2);
+    CHECK(report.flat_faces + report.duplicate_faces == 2);
+    CHECK(report.duplicated_vertices == 0);
+  }
   SECTION("two cones that touch in their tips come apart") {
     put(folder / "x.off",
         "OFF\n7 6 0\n0 0 0\n1 0 1\n0 1 1\n-1 -1 1\n1 0 -1\n0 1 -1\n-1 -1 -1\n"

@@ -9,10 +9,10 @@ namespace apps {
 using namespace anisomesh;
 
 Json to_json(const ReadReport& r) {
-  return {{"merged_vertices", r.merged_vertices},    {"triangulated_polygons", r.triangulated_polygons},
-          {"degenerate_faces", r.degenerate_faces},  {"duplicate_faces", r.duplicate_faces},
-          {"reoriented_faces", r.reoriented_faces},  {"duplicated_vertices", r.duplicated_vertices},
-          {"isolated_vertices", r.isolated_vertices}};
+  return {{"merged_vertices", r.merged_vertices},         {"triangulated_polygons", r.triangulated_polygons},
+          {"degenerate_faces", r.degenerate_faces},       {"flat_faces", r.flat_faces},
+          {"duplicate_faces", r.duplicate_faces},         {"reoriented_faces", r.reoriented_faces},
+          {"duplicated_vertices", r.duplicated_vertices}, {"isolated_vertices", r.isolated_vertices}};
 }
 
 Json to_json(const FillReport& r) {
@@ -230,6 +230,7 @@ OpenMesh::TriMesh read_surface(Command& command, const std::string& path, ReadRe
     if (count > 0) command.warn(path + ": " + std::to_string(count) + " " + what);
   };
   warn(found.degenerate_faces, "faces with a corner twice were dropped");
+  warn(found.flat_faces, "faces of pieces that have no area anywhere were dropped");
   warn(found.duplicate_faces, "duplicate faces were dropped");
   warn(found.reoriented_faces, "faces were turned over to agree with the rest");
   warn(found.duplicated_vertices,

@@ -19,6 +19,7 @@ using OpenMesh::EdgeHandle, OpenMesh::FaceHandle, OpenMesh::TriMesh, OpenMesh::V
 
 constexpr size_t least_budget = 20000;  // triangles
 constexpr double each_round = 0.6;      // of the longest edge: what is as long is halved with it
+constexpr double without_area = 1e-9;   // height over length
 constexpr double worth_halving = 0.5;   // of its triangle's longest edge
 
 template <class Handle>
@@ -77,6 +78,7 @@ double Refiner::longest_to_halve(std::vector<char>& marked) const {
     double most = 0;
     for (const auto e : f.edges()) most = std::max(most, mesh.calc_edge_length(e));
     const double height = most > 0 ? 2 * mesh.calc_face_area(f) / most : 0;
+    if (!(height > without_area * most)) continue;  // nothing bends there
     if (!detail::is_surely_less(limit_, most) || !detail::is_surely_less(aspect_ * height, most)) continue;
     for (const auto e : f.edges()) {
       const double length = mesh.calc_edge_length(e);

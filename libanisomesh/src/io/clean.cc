@@ -6,9 +6,6 @@
 
 namespace anisomesh::detail {
 
-namespace {
-
-/// Keeps the faces marked with 1, in their order; says how many went.
 size_t keep_faces(Soup& soup, const std::vector<char>& keep) {
   if (std::find(keep.begin(), keep.end(), 0) == keep.end()) return 0;
   Soup kept;
@@ -24,8 +21,6 @@ size_t keep_faces(Soup& soup, const std::vector<char>& keep) {
   soup.begins = std::move(kept.begins);
   return dropped;
 }
-
-}  // namespace
 
 void drop_degenerate_faces(Soup& soup, ReadReport& report) {
   std::vector<int> seen(soup.points.size(), -1);

@@ -55,7 +55,33 @@ struct Sides {
   std::vector<size_t> sorted;
 };
 
+/// Height over length of a triangle below which coordinates in a file have rounded its area away.
+constexpr double flat = 1e-7;
+
+bool is_flat(const Soup& soup, size_t f) {
+  const int* corner = soup.face(f);
+  const auto at = [&](int k) -> const Vec3d& { return soup.points[static_cast<size_t>(corner[k % 3])]; };
+  double longest = 0;  // squared
+  for (int k = 0; k < 3; ++k) longest = std::max(longest, (at(k + 1) - at(k)).sqrnorm());
+  return !(((at(1) - at(0)) % (at(2) - at(0))).norm() > flat * longest);
+}
+
 }  // namespace
+
+// Nothing can be made of them, and where they hang on a surface they would cut it open.
+void drop_flat_pieces(Soup& soup, ReadReport& report) {
+  std::vector<char> is_solid(soup.n_faces(), 0);
+  for (size_t f = 0; f < is_solid.size(); ++f) is_solid[f] = !is_flat(soup, f);
+  const auto solid = std::count(is_solid.begin(), is_solid.end(), 1);
+  if (solid == 0 || solid == static_cast<std::ptrdiff_t>(is_solid.size())) return;
+  const Sides sides(soup);
+  DisjointSets pieces(soup.n_faces());
+  sides.for_each_pair(soup, [&](size_t a, size_t b) { pieces.join(sides.face[a], sides.face[b]); });
+  std::vector<char> has_area(soup.n_faces(), 0), keep(soup.n_faces(), 0);
+  for (size_t f = 0; f < is_solid.size(); ++f) has_area[pieces.root(f)] |= is_solid[f];
+  for (size_t f = 0; f < is_solid.size(); ++f) keep[f] = has_area[pieces.root(f)];
+  report.flat_faces += keep_faces(soup, keep);
+}
 
 void orient(Soup& soup, ReadReport& report) {
   const Sides sides(soup);

@@ -81,6 +81,7 @@ OpenMesh::TriMesh surface_of(Soup soup, const std::string& path, ReadReport& rep
   detail::triangulate(soup, report);
   detail::drop_duplicate_faces(soup, report);
   if (soup.n_faces() == 0) throw InvalidInput(path + ": no face has three different corners");
+  detail::drop_flat_pieces(soup, report);
   detail::orient(soup, report);
   detail::split_non_manifold(soup, report);
   detail::drop_isolated_vertices(soup, report);

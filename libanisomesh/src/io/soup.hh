@@ -37,6 +37,10 @@ void drop_degenerate_faces(Soup& soup, ReadReport& report);
 void drop_duplicate_faces(Soup& soup, ReadReport& report);
 /// Splits every polygon into triangles, in the plane of best fit, by ears.
 void triangulate(Soup& soup, ReadReport& report);
+/// Drops pieces, joined along edges of two faces, of triangles that all are without area; not all there is.
+void drop_flat_pieces(Soup& soup, ReadReport& report);
+/// Keeps the faces marked with 1, in their order; says how many went.
+size_t keep_faces(Soup& soup, const std::vector<char>& keep);
 /// Turns faces over so that neighbours agree; in each component the majority is right.
 void orient(Soup& soup, ReadReport& report);
 /// Gives every fan of faces around a vertex a vertex of its own; edges of more than two faces, or of two
