@@ -119,12 +119,11 @@ void run(const std::filesystem::path& path, const Settings& settings, bench::Bar
     RemeshOptions options;
     options.domain = settings.domain;
     options.fit.enabled = !settings.unfitted;
-    options.features = settings.features;
     options.target_faces = std::max<size_t>(4, std::min(settings.target, mesh.n_faces() / 2));
     // As the apps do.
-    const FeatureReport tagged = tag_features(mesh, options.features);
+    const FeatureReport tagged = tag_features(mesh, settings.features);
     auto input = tagged.is_mechanical() ? refine(mesh) : mesh;
-    options.features.automatic = false;
+    options.features.automatic = false;  // what is tagged now is what there is
     RemeshReport report;
     auto result = remesh(input, options, &report);
     report.features = tagged;
