@@ -110,6 +110,7 @@ std::vector<EdgeHandle> Refiner::in_order(const std::vector<char>& marked) {
       edges.push_back({-mesh.calc_edge_length(e), std::min(a, b), std::max(a, b), e});
     }
   std::vector<double> lengths;
+  lengths.reserve(edges.size());
   for (const Edge& e : edges) lengths.push_back(e.length);
   lengths = detail::in_steps(std::move(lengths));
   for (size_t i = 0; i < edges.size(); ++i) edges[i].length = lengths[i];
@@ -117,6 +118,7 @@ std::vector<EdgeHandle> Refiner::in_order(const std::vector<char>& marked) {
     return std::tie(a.length, a.low, a.high) < std::tie(b.length, b.low, b.high);
   });
   std::vector<EdgeHandle> result;
+  result.reserve(edges.size());
   for (const Edge& e : edges) result.push_back(e.handle);
   return result;
 }
