@@ -129,25 +129,24 @@ PolygonAdjacency adjacency_of(const std::vector<Polygon>& polygons, const Networ
 
 // Of what is found from each of the corners' faces the nearest: at the tip of a spike one may lead to another
 // side, farther off.
-SurfacePoint Soundness::below_of(const Place& place) const {
-  SurfacePoint nearest;
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto start : place.starts) {
-    const SurfacePoint found = locator_.locate(place.uv, place.point, start);
-    const double distance = (position(surface_, found) - place.point).norm();
-    if (is_surely_less(distance, least)) least = distance, nearest = found;
+Soundness::Place Soundness::place_at(const Vec2d& uv, const Vec3d& point,
+                                     const std::vector<OpenMesh::FaceHandle>& starts) const {
+  Place place{point, OpenMesh::FaceHandle(), std::numeric_limits<double>::infinity()};
+  for (const auto start : starts) {
+    const SurfacePoint found = locator_.locate(uv, point, start);
+    const double distance = (position(surface_, found) - point).norm();
+    if (is_surely_less(distance, place.distance)) place.distance = distance, place.below = found.face;
   }
-  return nearest;
+  return place;
 }
 
 // Whether the surface around a place faces the other way than `normal`, everywhere within reach. Where it is
 // more tightly curled than the polygons are large, a polygon that stands for both sides is no fold.
 bool Soundness::is_against(const Place& place, const Vec3d& normal, const FoldReach& reach) const {
   const auto& mesh = surface_.connectivity();
-  const SurfacePoint below = below_of(place);
-  const double limit = (position(surface_, below) - place.point).norm() + reach.far;
-  std::vector<OpenMesh::FaceHandle> found{below.face};
-  std::unordered_set<int> seen{below.face.idx()};
+  const double limit = place.distance + reach.far;
+  std::vector<OpenMesh::FaceHandle> found{place.below};
+  std::unordered_set<int> seen{place.below.idx()};
   double nearest = std::numeric_limits<double>::infinity(), nearest_right = nearest, cosine = 1;
   for (size_t i = 0; i < found.size(); ++i) {
     const auto c = surface_.corners(found[i]);
@@ -191,23 +190,24 @@ std::vector<Soundness::Place> Soundness::places_in(const Polygon& polygon,
         return w[0] * of(polygon[at(corner[0])]) + w[1] * of(polygon[at(corner[1])]) +
                w[2] * of(polygon[at(corner[2])]);
       };
-      places.push_back({mean([&](int n) { return network.graph.uv(n); }),
-                        mean([&](int n) { return network.positions[at(n)]; }), starts});
+      places.push_back(place_at(mean([&](int n) { return network.graph.uv(n); }),
+                                mean([&](int n) { return network.positions[at(n)]; }), starts));
     }
   return places;
 }
 
-FoldReach Soundness::reach_of(const Polygon& polygon, const NetworkGraph& network) const {
+// How far around each of its places a polygon is held to what the surface does.
+FoldReach Soundness::reach_of(const Polygon& polygon, const std::vector<Place>& places,
+                              const NetworkGraph& network) {
   double distance = 0;
-  for (const Place& place : places_in(polygon, network))
-    distance = std::max(distance, (position(surface_, below_of(place)) - place.point).norm());
+  for (const Place& place : places) distance = std::max(distance, place.distance);
   return {diameter_of(polygon, network), distance};
 }
 
 // Turned over against the surface at more than half of a few places in it.
 bool Soundness::is_folded(const Polygon& polygon, const NetworkGraph& network, const Vec3d& normal) const {
   const std::vector<Place> places = places_in(polygon, network);
-  const FoldReach reach = reach_of(polygon, network);
+  const FoldReach reach = reach_of(polygon, places, network);
   size_t against = 0;
   for (const Place& place : places) against += is_against(place, normal, reach) ? 1 : 0;
   return 2 * against > places.size();
@@ -258,11 +258,14 @@ std::vector<int> Soundness::unsound(const std::vector<Polygon>& polygons, const 
       const Vec3d n = area_vector(polygons[p], network), m = area_vector(polygons[at(q)], network);
       if ((n | m) > folded_cosine * n.norm() * m.norm()) continue;
       const int a = polygons[p][i], b = polygons[p][(i + 1) % polygons[p].size()];
-      const Place middle{0.5 * (network.graph.uv(a) + network.graph.uv(b)),
-                         0.5 * (network.positions[at(a)] + network.positions[at(b)]),
-                         {network.points[at(a)].face, network.points[at(b)].face}};
-      bad[p] |= is_against(middle, n, reach_of(polygons[p], network));
-      bad[at(q)] |= is_against(middle, m, reach_of(polygons[at(q)], network));
+      const Place middle = place_at(0.5 * (network.graph.uv(a) + network.graph.uv(b)),
+                                    0.5 * (network.positions[at(a)] + network.positions[at(b)]),
+                                    {network.points[at(a)].face, network.points[at(b)].face});
+      const auto against = [&](const Polygon& polygon, const Vec3d& normal) {
+        return is_against(middle, normal, reach_of(polygon, places_in(polygon, network), network));
+      };
+      bad[p] |= against(polygons[p], n);
+      bad[at(q)] |= against(polygons[at(q)], m);
     }
   std::vector<int> result;
   for (size_t p = 0; p < polygons.size(); ++p)

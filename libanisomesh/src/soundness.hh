@@ -34,13 +34,14 @@ class Soundness {
   bool is_sound(const std::vector<int>& polygon, const NetworkGraph& network) const;
   bool is_folded(const std::vector<int>& polygon, const NetworkGraph& network, const Vec3d& normal) const;
   struct Place {
-    Vec2d uv;
     Vec3d point;
-    std::vector<OpenMesh::FaceHandle> starts;  ///< where to begin to look for it
+    OpenMesh::FaceHandle below;  ///< of the input
+    double distance;             ///< to that face
   };
+  Place place_at(const Vec2d& uv, const Vec3d& point, const std::vector<OpenMesh::FaceHandle>& starts) const;
   std::vector<Place> places_in(const std::vector<int>& polygon, const NetworkGraph& network) const;
-  SurfacePoint below_of(const Place& place) const;
-  FoldReach reach_of(const std::vector<int>& polygon, const NetworkGraph& network) const;
+  static FoldReach reach_of(const std::vector<int>& polygon, const std::vector<Place>& places,
+                            const NetworkGraph& network);
   bool is_against(const Place& place, const Vec3d& normal, const FoldReach& reach) const;
   std::vector<int> unsound(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
                            bool or_touching) const;
