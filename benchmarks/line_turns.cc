@@ -16,7 +16,7 @@
 #include "anisomesh/io.hh"
 #include "anisomesh/lines.hh"
 #include "anisomesh/remesh.hh"
-#include "make_domain.hh"
+#include "lines/make_domain.hh"
 
 using namespace anisomesh;
 

@@ -18,7 +18,7 @@
 #include "anisomesh/umbilics.hh"
 #include "catch.hh"
 #include "data.hh"
-#include "overlay.hh"
+#include "network/overlay.hh"
 #include "sound_result.hh"
 
 using namespace anisomesh;

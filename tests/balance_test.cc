@@ -18,9 +18,9 @@
 #include "anisomesh/properties.hh"
 #include "anisomesh/remesh.hh"
 #include "anisomesh/smoothing.hh"
+#include "balance/far_moves.hh"
 #include "catch.hh"
 #include "data.hh"
-#include "far_moves.hh"
 #include "fitted.hh"
 #include "sound_result.hh"
 

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "catch.hh"
-#include "planar_sampling.hh"
+#include "shapes/planar_sampling.hh"
 
 using namespace anisomesh::detail;
 

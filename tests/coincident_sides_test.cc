@@ -1,5 +1,5 @@
 // Sides of polygons that lie on each other where vertices of the surface are in one place.
-#include "coincident_sides.hh"
+#include "mesher/coincident_sides.hh"
 
 #include "catch.hh"
 

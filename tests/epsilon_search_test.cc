@@ -1,6 +1,6 @@
 // The search for a count against results that are made up: a law of the count, and refusals where a test
 // says.
-#include "epsilon_search.hh"
+#include "remesh/epsilon_search.hh"
 
 #include <cmath>
 #include <functional>

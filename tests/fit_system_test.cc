@@ -1,5 +1,5 @@
 // The sparse least squares of the fit.
-#include "fit_system.hh"
+#include "fit/fit_system.hh"
 
 #include <cmath>
 

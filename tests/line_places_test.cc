@@ -1,5 +1,5 @@
 // The points of a line that its drawing on the surface needs.
-#include "line_places.hh"
+#include "network/line_places.hh"
 
 #include <OpenMesh/Core/Mesh/DefaultTriMesh.hh>
 #include <cmath>

@@ -11,8 +11,8 @@
 #include "anisomesh/lines.hh"
 #include "anisomesh/properties.hh"
 #include "catch.hh"
-#include "line_directions.hh"
-#include "uv_locator.hh"
+#include "mesher/line_directions.hh"
+#include "network/uv_locator.hh"
 
 using namespace anisomesh;
 

@@ -1,5 +1,5 @@
 // What may take the place of polygons in a result that is being changed.
-#include "patch_moves.hh"
+#include "balance/patch_moves.hh"
 
 #include "anisomesh/mesher.hh"
 #include "anisomesh/properties.hh"

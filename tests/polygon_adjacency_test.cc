@@ -1,5 +1,5 @@
 // Which polygon lies beside which, while polygons change.
-#include "polygon_adjacency.hh"
+#include "mesher/polygon_adjacency.hh"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // What polygons must not be.
-#include "polygon_judge.hh"
+#include "mesher/polygon_judge.hh"
 
 #include "catch.hh"
 

@@ -8,10 +8,10 @@
 #include "anisomesh/lines.hh"
 #include "anisomesh/properties.hh"
 #include "catch.hh"
-#include "surface_domain.hh"
-#include "surface_index.hh"
+#include "lines/surface_domain.hh"
+#include "lines/surface_index.hh"
+#include "surface/surface_walk.hh"
 #include "surface_stages.hh"
-#include "surface_walk.hh"
 
 using namespace anisomesh;
 using on_surface::prepare;

@@ -1,4 +1,4 @@
-#include "two_jobs.hh"
+#include "lines/two_jobs.hh"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>

@@ -11,8 +11,8 @@
 #include "catch.hh"
 #include "data.hh"
 #include "exact_curvature.hh"
+#include "field/umbilic_analysis.hh"
 #include "numerics/tensor2d.hh"
-#include "umbilic_analysis.hh"
 
 using namespace anisomesh;
 using OpenMesh::TriMesh;

@@ -1,5 +1,5 @@
 // Folds that moving corners cannot take out: polygons that were put together wrongly.
-#include "unfold.hh"
+#include "balance/unfold.hh"
 
 #include "anisomesh/compare.hh"
 #include "anisomesh/mesher.hh"

@@ -1,5 +1,5 @@
 // Quads at a rim that the shorter diagonal would draw out of their wall.
-#include "upright_quads.hh"
+#include "mesher/upright_quads.hh"
 
 #include "catch.hh"
 

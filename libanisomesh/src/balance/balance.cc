@@ -1,0 +1,224 @@
+#include "anisomesh/balance.hh"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "anisomesh/errors.hh"
+#include "anisomesh/properties.hh"
+#include "balance/far_moves.hh"
+#include "balance/patch_moves.hh"
+#include "balance/quad_splits.hh"
+#include "balance/unfold.hh"
+#include "compare/compare_parts.hh"
+#include "remesh/epsilon_search.hh"
+#include "surface/canonical_copy.hh"
+#include "surface/recorded.hh"
+
+namespace anisomesh {
+
+namespace {
+
+using detail::PatchChanges;
+using detail::PatchMesh;
+using detail::PatchMove;
+
+constexpr int passes_before = 2, passes_between = 1;
+constexpr int more_rounds = 3;  // where there are too many after those asked for
+constexpr double near_enough = 0.05;
+constexpr double sure = 1.2;  // an exchange must gain this many times what it costs
+
+/// Takes removals and additions in turn, as long as that pays, or the number of vertices is not what it is to
+/// be.
+void exchange(PatchChanges& changes, const std::vector<PatchMove>& removals,
+              const std::vector<PatchMove>& additions, long surplus, BalanceReport& report) {
+  size_t r = 0, a = 0;
+  while (true) {
+    while (r < removals.size() && !changes.is_open(removals[r])) ++r;
+    while (a < additions.size() && !changes.is_open(additions[a])) ++a;
+    const bool can_remove = r < removals.size(), can_add = a < additions.size();
+    if (surplus > 0) {
+      if (!can_remove) return;
+      changes.apply(removals[r]), --surplus, ++report.removed;
+    } else if (surplus < 0) {
+      if (!can_add) return;
+      changes.apply(additions[a]), ++surplus, ++report.added;
+    } else {
+      if (!can_remove || !can_add || !(additions[a].gain > -sure * removals[r].gain)) return;
+      changes.apply(additions[a]), --surplus, ++report.added;
+      surplus += 2;  // one more than wanted
+    }
+  }
+}
+
+/// How many there are to be in the end.
+struct Wanted {
+  size_t vertices = 0, faces = 0;  ///< the one or the other
+
+  Wanted(const SurfaceRef& surface, const OpenMesh::PolyMesh& result, const BalanceOptions& options) {
+    const auto& mesh = surface.connectivity();
+    const auto of_search = [&](const auto& declaration) {
+      return static_cast<size_t>(detail::recorded(mesh, declaration, 0));
+    };
+    vertices = options.target_vertices;
+    if (vertices == 0) vertices = of_search(property::target_vertices);
+    if (vertices == 0) faces = of_search(property::target_faces);
+    if (vertices + faces == 0) vertices = result.n_vertices();
+  }
+
+  /// Vertices that are too many: each stands for about as many faces as there are for one.
+  long surplus(const OpenMesh::PolyMesh& mesh) const {
+    const auto n = static_cast<double>(mesh.n_vertices()), f = static_cast<double>(mesh.n_faces());
+    if (faces > 0) return std::lround((f - static_cast<double>(faces)) * n / f);
+    return static_cast<long>(mesh.n_vertices()) - static_cast<long>(vertices);
+  }
+  bool is_met(const OpenMesh::PolyMesh& mesh, double within) const {
+    return std::abs(excess(mesh)) <= within;
+  }
+  bool is_exceeded(const OpenMesh::PolyMesh& mesh, double by) const { return excess(mesh) > by; }
+
+ private:
+  /// As a fraction of what is wanted.
+  double excess(const OpenMesh::PolyMesh& mesh) const {
+    const auto there = static_cast<double>(faces > 0 ? mesh.n_faces() : mesh.n_vertices());
+    return there / static_cast<double>(faces > 0 ? faces : vertices) - 1;
+  }
+};
+
+/// The result on its way, and what is known of it.
+class Balance {
+ public:
+  Balance(const SurfaceRef& surface, const OpenMesh::PolyMesh& result, const BalanceOptions& options,
+          const FitOptions& fit_options)
+      : surface_(surface),
+        input_(surface),
+        reference_(surface),
+        options_(options),
+        wanted_(surface, result, options),
+        work_(result),
+        state_(std::make_unique<detail::FitState>(surface, input_, work_, fit_options)) {}
+
+  double rms() const { return std::sqrt(0.5 * state_->energy()) / surface_.diagonal(); }
+  const detail::ReferenceSurface& reference() const { return reference_; }
+  OpenMesh::PolyMesh& work() { return work_; }
+  BalanceReport& report() { return report_; }
+  const Wanted& wanted() const { return wanted_; }
+
+  void fit(int passes) {
+    report_.fit.passes += state_->improve_often(passes);
+    for (const auto v : work_.vertices()) work_.set_point(v, state_->points()[static_cast<size_t>(v.idx())]);
+  }
+
+  void move() {
+    const detail::PatchMoves moves(surface_, input_, *state_, options_);
+    PatchMesh mesh(work_);
+    PatchChanges changes(mesh);
+    const long surplus = wanted_.surplus(work_);
+    const auto removals = moves.removals(mesh), additions = moves.additions(mesh, surplus < 0),
+               far = detail::FarMoves(reference_, *state_, options_).repartitions(mesh),
+               repartitions = moves.repartitions(mesh);
+    part(changes, far);
+    exchange(changes, removals, additions, surplus, report_);
+    part(changes, repartitions);
+    go_on_with(mesh);
+  }
+
+  /// The farthest places alone.
+  void part_far() {
+    PatchMesh mesh(work_);
+    PatchChanges changes(mesh);
+    const auto far = detail::FarMoves(reference_, *state_, options_).repartitions(mesh);
+    part(changes, far);
+    if (!far.empty()) go_on_with(mesh);
+  }
+
+  void split_quads() {
+    PatchMesh mesh(work_);
+    report_.split = split_bent_quads(*state_, input_, options_.split_gain, options_.least_quads, mesh);
+    if (report_.split > 0) work_ = mesh.mesh();
+  }
+
+ private:
+  void part(PatchChanges& changes, const std::vector<PatchMove>& moves) {
+    for (const PatchMove& move : moves)
+      if (changes.is_open(move)) changes.apply(move), ++report_.parted;
+  }
+  void go_on_with(const PatchMesh& mesh) {
+    work_ = mesh.mesh();
+    state_ = std::make_unique<detail::FitState>(std::move(*state_), work_, mesh.heirs());
+  }
+
+  const SurfaceRef& surface_;
+  const detail::FitInput input_;
+  const detail::ReferenceSurface reference_;
+  const BalanceOptions& options_;
+  const Wanted wanted_;
+  BalanceReport report_;
+  OpenMesh::PolyMesh work_;
+  std::unique_ptr<detail::FitState> state_;
+};
+
+}  // namespace
+
+void BalanceOptions::validate() const {
+  if (rounds < 0)
+    throw InvalidOption("balance.rounds must not be negative, but is " + std::to_string(rounds));
+  if (!(triangle_cost >= 0)) throw InvalidOption("balance.triangle_cost must not be negative");
+  if (!(alignment_cost >= 0)) throw InvalidOption("balance.alignment_cost must not be negative");
+  if (!(split_gain >= 0)) throw InvalidOption("balance.split_gain must not be negative");
+  if (!(least_quads >= 0 && least_quads <= 1)) throw InvalidOption("balance.least_quads must be in [0, 1]");
+}
+
+BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& result,
+                               const BalanceOptions& options, const FitOptions& fit_options,
+                               const Progress& progress) {
+  if (!surface.canonical_copy())
+    return detail::change_in_canonical_order(
+        surface, result, [&](const SurfaceRef& ordered, OpenMesh::PolyMesh& work) {
+          return balance_vertices(ordered, work, options, fit_options, progress);
+        });
+  const auto start = std::chrono::steady_clock::now();
+  options.validate();
+  fit_options.validate();
+  Balance balance(surface, result, options, fit_options);
+  BalanceReport& report = balance.report();
+  OpenMesh::PolyMesh fitted;
+  double rms_fitted = 0;
+  report.fit.rms_before = balance.rms();
+  const bool change = options.rounds > 0 && (options.max_degree == 3 || options.max_degree == 4);
+  for (int round = 0; change && round < options.rounds + more_rounds; ++round) {
+    if (round >= options.rounds && !balance.wanted().is_exceeded(balance.work(), near_enough)) break;
+    report_progress(progress, std::min(round, options.rounds) / (options.rounds + 1.0));
+    balance.fit(round == 0 ? passes_before : passes_between);
+    if (round == 0) fitted = balance.work(), rms_fitted = balance.rms();
+    balance.move();
+  }
+  report_progress(progress, options.rounds / (options.rounds + 1.0));
+  const int last = change ? (3 * fit_options.passes + 3) / 4 : fit_options.passes;  // it begins near then
+  balance.fit(1);
+  if (change) balance.part_far();
+  balance.fit(last - 1);
+  report.fit.rms_after = balance.rms();
+  report_progress(progress, 1);
+  // A number that the search has met may have cost more than the moves have gained; error falls as 1 /
+  // vertices.
+  const bool worse = change && options.target_vertices == 0 &&
+                     balance.wanted().is_met(result, detail::kMet) &&
+                     report.fit.rms_after * static_cast<double>(balance.work().n_vertices()) >
+                         rms_fitted * static_cast<double>(result.n_vertices());
+  if (worse) report.fit.rms_after = rms_fitted;
+  if (change && !worse) balance.split_quads();
+  std::vector<OpenMesh::PolyMesh> candidates{result};
+  if (change) candidates.push_back(std::move(fitted));
+  if (!worse) candidates.push_back(std::move(balance.work()));
+  const auto taken = static_cast<size_t>(choose_unfolded(surface, balance.reference(), candidates));
+  if (taken + 1 < candidates.size()) report.fit.rms_after = taken == 0 ? report.fit.rms_before : rms_fitted;
+  result = std::move(candidates[taken]);
+  report.fit.seconds = report.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+}  // namespace anisomesh

@@ -1,0 +1,117 @@
+#include "fit/fit_curves.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "anisomesh/features.hh"
+#include "prepare/feature_tolerance.hh"
+
+namespace anisomesh::detail {
+
+namespace {
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+constexpr int pieces = 2;  // samples on an edge of the input, beside those that are only watched
+constexpr double watched = 8, most_watched = 64;  // places for each side of the result, and at all
+
+}  // namespace
+
+FitCurves::FitCurves(const SurfaceRef& surface, const FitMesh& mesh, const FitMatching& matching,
+                     const std::vector<Vec3d>& points)
+    : mesh_(mesh), tolerance_(asked_feature_tolerance * surface.extent()), sides_at_(at(mesh.n_vertices)) {
+  for (size_t s = 0; s < mesh.sides.size(); ++s)
+    if (mesh.sides[s].on_curve)
+      for (const int v : {mesh.sides[s].from, mesh.sides[s].to})
+        sides_at_[at(v)].push_back(static_cast<int>(s));
+  const auto& input = surface.connectivity();
+  for (const auto e : input.edges()) {
+    if (!is_feature_or_border(input, e)) continue;
+    const Vec3d &a = surface.point(e.v0()), &b = surface.point(e.v1());
+    Sample sample;
+    const double length = (b - a).norm();
+    std::vector<int> candidates;
+    for (const int k : {0, 1}) {
+      const auto face = input.face_handle(input.halfedge_handle(e, static_cast<unsigned>(k)));
+      const int p = face.is_valid() ? matching.polygon_of(face.idx()) : -1;
+      if (p < 0) continue;
+      for (const int* v = mesh.begin(p); v != mesh.end(p); ++v)
+        candidates.insert(candidates.end(), sides_at(*v).begin(), sides_at(*v).end());
+    }
+    const auto add = [&](double parameter, double stands_for) {
+      sample.place = a + parameter * (b - a);
+      sample.length = stands_for;
+      sample.side = -1;
+      sample.distance = std::numeric_limits<double>::infinity();
+      for (const int s : candidates) look(sample.place, s, points, sample);
+      if (sample.side >= 0) samples_.push_back(nearest(sample, points));
+    };
+    for (int i = 0; i < pieces; ++i) add((i + 0.5) / pieces, length / pieces);
+    // The ends, which are farthest from a chord, weigh nothing and are only watched; so are places between,
+    // as many as tell where a vertex between two sides goes that is in the middle of the edge.
+    double shortest = length;
+    for (const int s : candidates)
+      shortest =
+          std::min(shortest, (points[at(mesh.sides[at(s)].to)] - points[at(mesh.sides[at(s)].from)]).norm());
+    const double wanted = watched * (length - shortest) / std::max(shortest, length / most_watched);
+    const int n = 1 + static_cast<int>(std::lround(std::clamp(wanted, 0.0, most_watched)));
+    for (int i = 0; i <= n; ++i) add(static_cast<double>(i) / n, 0);
+  }
+}
+
+void FitCurves::look(const Vec3d& place, int side, const std::vector<Vec3d>& points, Sample& best) const {
+  const Vec3d &a = points[at(mesh_.sides[at(side)].from)], &b = points[at(mesh_.sides[at(side)].to)];
+  const double squared = (b - a).sqrnorm();
+  const double t = squared > 0 ? std::clamp(((place - a) | (b - a)) / squared, 0.0, 1.0) : 0;
+  const double distance = (place - a - t * (b - a)).norm();
+  if (!(distance < best.distance)) return;
+  best.side = side;
+  best.parameter = t;
+  best.distance = distance;
+}
+
+// From side to side along the curve, as long as there is a nearer one.
+FitCurves::Sample FitCurves::nearest(const Sample& sample, const std::vector<Vec3d>& points) const {
+  Sample best = sample;
+  best.distance = std::numeric_limits<double>::infinity();
+  look(sample.place, sample.side, points, best);
+  for (int current = -1; current != best.side;) {
+    current = best.side;
+    for (const int v : {mesh_.sides[at(current)].from, mesh_.sides[at(current)].to})
+      for (const int s : sides_at(v)) look(sample.place, s, points, best);
+  }
+  return best;
+}
+
+void FitCurves::match(const std::vector<Vec3d>& points) {
+  for (Sample& sample : samples_) sample = nearest(sample, points);
+}
+
+void FitCurves::add_terms(const std::vector<Vec3d>& points, double width, double total_area,
+                          FitSystem& system) const {
+  for (const Sample& sample : samples_) {
+    if (!(sample.length > 0)) continue;
+    const auto& side = mesh_.sides[at(sample.side)];
+    const Vec3d &a = points[at(side.from)], &b = points[at(side.to)];
+    const Vec3d along = b - a, away = sample.place - a - sample.parameter * along;
+    const double weight = sample.length * width / total_area, length = along.norm();
+    if (!(length > 0)) continue;
+    const int v[2] = {side.from, side.to};
+    const double factor[2] = {1 - sample.parameter, sample.parameter};
+    const TangentFrame across(along / length);
+    system.add_row(v, factor, across.u, away | across.u, weight);
+    system.add_row(v, factor, across.v, away | across.v, weight);
+  }
+}
+
+void FitCurves::mark_strays(const std::vector<Vec3d>& points, std::vector<char>& marked) const {
+  for (const Sample& sample : samples_) {
+    const Sample now = nearest(sample, points);
+    if (now.distance <= std::max(tolerance_, sample.distance)) continue;
+    for (const int s : {sample.side, now.side})
+      for (const int v : {mesh_.sides[at(s)].from, mesh_.sides[at(s)].to}) marked[at(v)] = 1;
+  }
+}
+
+}  // namespace anisomesh::detail

@@ -1,0 +1,42 @@
+// Features and borders of the result, fitted along those of the input.
+#pragma once
+
+#include <vector>
+
+#include "fit/fit_matching.hh"
+#include "fit/fit_system.hh"
+
+namespace anisomesh::detail {
+
+class FitCurves {
+ public:
+  /// \param matching tells which polygons lie beside an edge of the input
+  FitCurves(const SurfaceRef& surface, const FitMesh& mesh, const FitMatching& matching,
+            const std::vector<Vec3d>& points);
+
+  /// Finds the sides nearest to the input's curves, where the vertices are now.
+  void match(const std::vector<Vec3d>& points);
+  /// Squared distances of the input's curves to the matched sides. \param width of the strip along a curve
+  /// whose area a piece of it weighs as much as
+  void add_terms(const std::vector<Vec3d>& points, double width, double total_area, FitSystem& system) const;
+  /// Marks the ends of sides that would leave their curve farther than they may, or farther than before.
+  void mark_strays(const std::vector<Vec3d>& points, std::vector<char>& marked) const;
+
+ private:
+  struct Sample {
+    Vec3d place{0, 0, 0};
+    double length = 0;
+    int side = -1;  // of the result; -1: none is near
+    double parameter = 0, distance = 0;
+  };
+  void look(const Vec3d& place, int side, const std::vector<Vec3d>& points, Sample& best) const;
+  Sample nearest(const Sample& sample, const std::vector<Vec3d>& points) const;
+  const std::vector<int>& sides_at(int vertex) const { return sides_at_[static_cast<size_t>(vertex)]; }
+
+  const FitMesh& mesh_;
+  double tolerance_;
+  std::vector<std::vector<int>> sides_at_;  // those on curves, of each vertex
+  std::vector<Sample> samples_;
+};
+
+}  // namespace anisomesh::detail

@@ -1,0 +1,267 @@
+#include "anisomesh/mesher.hh"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "anisomesh/errors.hh"
+#include "anisomesh/properties.hh"
+#include "mesher/joining.hh"
+#include "mesher/polygon_attempt.hh"
+#include "mesher/polygon_output.hh"
+#include "mesher/polygons.hh"
+#include "mesher/slit_seams.hh"
+#include "mesher/soundness.hh"
+#include "mesher/upright_quads.hh"
+#include "network/drawing.hh"
+#include "numerics/bvh.hh"
+#include "prepare/feature_tolerance.hh"
+#include "surface/canonical_copy.hh"
+#include "surface/recorded.hh"
+
+namespace anisomesh {
+
+namespace {
+
+using detail::NetworkGraph;
+size_t at(int i) { return static_cast<size_t>(i); }
+
+class Stopwatch {
+ public:
+  /// Seconds since the last call.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    start_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// What MeshOptions::for_fit multiplies.
+constexpr double fitted_chains = 1.5, fitted_cells = 2, fitted_alignment = 4;
+
+/// Leaves no option of those that epsilon is the unit of to be found elsewhere.
+MeshOptions resolved(MeshOptions options, const OpenMesh::TriConnectivity& mesh) {
+  if (options.cell_tolerance == 0)
+    options.cell_tolerance = detail::recorded(mesh, property::cell_tolerance, 2.0);
+  if (options.for_fit) {
+    options.chain_tolerance *= fitted_chains;
+    options.cell_tolerance *= fitted_cells;
+    options.alignment_weight *= fitted_alignment;
+    options.for_fit = false;
+  }
+  return options;
+}
+
+/// How nearly features are followed, model units.
+double feature_tolerance_of(const SurfaceRef& surface, const MeshOptions& options) {
+  if (options.feature_tolerance > 0) return options.feature_tolerance * surface.diagonal();
+  return surface.extent() * detail::recorded(surface.connectivity(), property::feature_tolerance,
+                                             detail::asked_feature_tolerance);
+}
+
+// Polygons that would be folded, concave or without area are given other chances with more samples around
+// them.
+constexpr size_t max_retries = 8;
+constexpr size_t patience = 4;           // retries, before vertices are given up for sound polygons
+constexpr double cells_at_features = 5;  // times the tolerance of features
+constexpr double tiny = 0.05;            // of epsilon: no edge need be as short
+constexpr double widest_merge = 0.0125;  // of the extent: chains that only bend within a share of infinity
+constexpr double around = 1.5;           // such a polygon: times its width
+
+// What is around a polygon: as far from it as it is wide, but for slivers, so that one along a whole side of
+// a part does not concern all of it; these farther each time they are met.
+class Surroundings {
+ public:
+  Surroundings(const std::vector<int>& polygon, const NetworkGraph& network, double least_reach) {
+    for (const int n : polygon) corners_.push_back(network.positions[at(n)]);
+    for (const Vec3d& p : corners_) middle_ += p / static_cast<double>(corners_.size());
+    double diameter = 0;
+    Vec3d area(0, 0, 0);
+    for (size_t i = 0; i < corners_.size(); ++i) {
+      radius_ = std::max(radius_, (corners_[i] - middle_).norm());
+      if (i > 1) area += cross(corners_[i - 1] - corners_[0], corners_[i] - corners_[0]);
+      for (size_t k = 0; k < i; ++k) diameter = std::max(diameter, (corners_[i] - corners_[k]).norm());
+    }
+    if (diameter > 0)
+      reach_ = around * std::min(diameter, std::max(area.norm() / diameter, least_reach * diameter));
+  }
+
+  bool include(const Vec3d& place) const {
+    if ((place - middle_).norm() > radius_ + reach_) return false;
+    for (size_t i = 1; i + 1 < corners_.size(); ++i) {
+      const Vec3d &a = corners_[0], &b = corners_[i], &c = corners_[i + 1];
+      const Vec3d w = detail::closest_barycentric(place, a, b, c);
+      if ((w[0] * a + w[1] * b + w[2] * c - place).norm() <= reach_) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::vector<Vec3d> corners_;
+  Vec3d middle_{0, 0, 0};
+  double radius_ = 0, reach_ = 0;
+};
+
+// Halves the share of the tolerances that holds near some polygons. Isotropic samples that no tolerance moves
+// need not stay any longer.
+void take_more_care(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
+                    size_t retries, NetworkGraph& start) {
+  if (retries >= patience)
+    for (const auto& polygon : polygons)
+      for (const int n : polygon)
+        if (at(n) < start.fixed.size() && start.origins[at(n)] == Origin::isotropic) start.fixed[at(n)] = 0;
+  if (start.share.empty()) start.share.assign(start.positions.size(), 1);
+  std::vector<char> near(start.share.size(), 0);
+  const double least_reach = std::ldexp(1.0, static_cast<int>(retries) - static_cast<int>(patience));
+  for (const auto& polygon : polygons) {
+    const Surroundings surroundings(polygon, network, least_reach);
+    for (size_t n = 0; n < near.size(); ++n) near[n] |= surroundings.include(start.positions[n]);
+  }
+  for (size_t n = 0; n < near.size(); ++n)
+    if (near[n]) start.share[n] /= 2;
+}
+
+[[noreturn]] void refuse(const std::vector<int>& polygon, const NetworkGraph& network, size_t count,
+                         const SurfaceRef& surface) {
+  Vec3d middle(0, 0, 0);
+  for (const int n : polygon) middle += network.positions[at(n)] / static_cast<double>(polygon.size());
+  middle = detail::given_place(surface, middle);
+  throw CannotProcess(std::to_string(count) + " polygons would be folded or degenerate, one of them near (" +
+                      std::to_string(middle[0]) + ", " + std::to_string(middle[1]) + ", " +
+                      std::to_string(middle[2]) + "); smooth the input there or try a smaller epsilon");
+}
+
+void count_polygons(const std::vector<std::vector<int>>& polygons, MeshReport& report) {
+  std::vector<int> nodes;
+  for (const auto& polygon : polygons) nodes.insert(nodes.end(), polygon.begin(), polygon.end());
+  std::sort(nodes.begin(), nodes.end());
+  report.vertices = static_cast<size_t>(std::unique(nodes.begin(), nodes.end()) - nodes.begin());
+  report.faces = polygons.size();
+  report.triangles = report.quads = 0;
+  for (const auto& polygon : polygons) {
+    report.triangles += polygon.size() == 3;
+    report.quads += polygon.size() == 4;
+  }
+}
+
+}  // namespace
+
+void MeshOptions::validate() const {
+  if (max_degree != 0 && max_degree < 3)
+    throw InvalidOption("max_degree is " + std::to_string(max_degree) +
+                        "; it must be 0 (no bound) or at least 3");
+  if (!(corner_angle_degrees >= 0 && corner_angle_degrees <= 180))
+    throw InvalidOption("corner_angle_degrees must be between 0 and 180");
+  if (!(chain_tolerance >= 0)) throw InvalidOption("chain_tolerance must not be negative");
+  if (!(cell_tolerance >= 0)) throw InvalidOption("cell_tolerance must not be negative");
+  if (!(alignment_weight >= 0)) throw InvalidOption("alignment_weight must not be negative");
+  if (!(feature_tolerance >= 0)) throw InvalidOption("feature_tolerance must not be negative");
+  if (!(merge_fraction >= 0 && merge_fraction < 1)) throw InvalidOption("merge_fraction must be in [0, 1)");
+  if (!(max_bend_degrees > 0 && max_bend_degrees <= 180))
+    throw InvalidOption("max_bend_degrees must be above 0 and at most 180");
+}
+
+OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& options, MeshReport* report,
+                                  const Progress& progress) {
+  if (!surface.canonical_copy())
+    return detail::make_in_canonical_order(surface, [&](const SurfaceRef& ordered) {
+      return build_polygons(ordered, options, report, progress);
+    });
+  return detail::attempt_polygons(
+             surface, options, [](size_t, size_t) { return true; }, report, progress)
+      .mesh;
+}
+
+detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const MeshOptions& given,
+                                                const IsWanted& is_wanted, MeshReport* report,
+                                                const Progress& progress) {
+  given.validate();
+  const MeshOptions options = resolved(given, surface.connectivity());
+  MeshReport local;
+  Stopwatch total, stopwatch;
+  report_progress(progress, 0);
+  const LineNetwork lines = read_lines(surface);
+  const double epsilon =
+      detail::recorded(surface.connectivity(), property::epsilon, std::numeric_limits<double>::infinity());
+
+  const detail::SurfaceNormals normals(surface);
+  double reached = 0;  // said again and again, so that it can be cancelled
+  const auto drawing =
+      detail::make_drawing(surface, normals, lines, options.corner_angle_degrees,
+                           options.cell_tolerance * epsilon, [&] { report_progress(progress, reached); });
+  local.crossings = drawing->network().crossings;
+  local.arrangement_seconds = stopwatch.lap();
+  report_progress(progress, reached = 0.4);
+
+  const double chain_tolerance = options.chain_tolerance * epsilon,
+               feature_tolerance = feature_tolerance_of(surface, options);
+  const detail::DecimationOptions decimation{
+      chain_tolerance, std::min(chain_tolerance, widest_merge * surface.extent()), feature_tolerance,
+      options.merge_fraction, std::isfinite(epsilon) ? tiny * epsilon : 0};
+  const detail::RegionOptions region_options{{options.max_degree, options.convex},
+                                             options.cell_tolerance * epsilon,
+                                             options.flip_edges,
+                                             cells_at_features * feature_tolerance};
+  // On the surface nothing but the judge keeps a cell from being bridged, so that a large epsilon, as where
+  // the features alone are more than the faces that are wanted, must not make that cheap.
+  const bool planar = drawing->network().planar;
+  const double judged = planar ? epsilon : std::min(epsilon, cells_at_features * feature_tolerance);
+  const detail::PolygonJudge judge(
+      surface, drawing->locator(), normals,
+      {judged, planar ? 10.0 : 100.0, options.max_bend_degrees, options.alignment_weight});
+  const detail::SlitSeams seams(surface);
+  NetworkGraph network, start = drawing->network();
+  std::vector<std::vector<int>> polygons;
+  while (true) {
+    network = start;
+    detail::DecimationReport decimated;
+    auto cells = drawing->cells(network, decimation, std::isfinite(region_options.cell_tolerance), decimated);
+    local.trimmed = decimated.trimmed;
+    local.straightened = decimated.straightened;
+    local.merged = decimated.merged;
+    local.decimation_seconds += stopwatch.lap();
+    report_progress(progress, 0.6);
+
+    auto set = detail::extract_polygons(network, std::move(cells), surface, normals, judge, region_options);
+    if (options.max_degree == 4) detail::pair_triangles(set.polygons, network, judge, options.join_lines);
+    if (options.max_degree > 0) detail::split_upright_quads(set.polygons, network);
+    local.added_samples = set.added_samples;
+    local.dropped_samples = set.dropped_samples;
+    local.convexity_splits = set.convexity_splits;
+    local.conforming_edges = set.conforming_edges;
+    polygons = std::move(set.polygons);
+    seams.zip(polygons, network, normals, judge, region_options.partition);
+    detail::Soundness soundness(surface, drawing->locator(), judge, options.convex);
+    soundness.require_topology(polygons);
+    auto unsound = soundness.repair(polygons, network, options.max_degree, local.retries >= patience);
+    local.polygon_seconds += stopwatch.lap();
+    report_progress(progress, 0.8);
+    if (unsound.empty() && local.retries < patience) unsound = soundness.coincident(polygons, network);
+    if (unsound.empty()) break;
+    count_polygons(polygons, local);
+    if (!is_wanted(local.vertices, local.faces)) {
+      local.seconds = total.lap();
+      if (report) *report = local;
+      return {};
+    }
+    ++local.retries;
+    if (local.retries > max_retries) refuse(unsound.front(), network, unsound.size(), surface);
+    take_more_care(unsound, network, local.retries, start);
+  }
+  PolygonAttempt done{detail::make_mesh(network, polygons), true};
+  local.polygon_seconds += stopwatch.lap();
+  report_progress(progress, 1);
+
+  count_polygons(polygons, local);
+  local.seconds = total.lap();
+  if (report) *report = local;
+  return done;
+}
+
+}  // namespace anisomesh

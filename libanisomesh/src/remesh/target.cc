@@ -1,0 +1,257 @@
+// Lines, samples and polygons; where a number of faces is wanted, with the epsilon that gives it.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "anisomesh/flatten.hh"
+#include "anisomesh/properties.hh"
+#include "anisomesh/remesh.hh"
+#include "field/surface_field.hh"
+#include "mesher/polygon_attempt.hh"
+#include "numerics/tensor2d.hh"
+#include "numerics/tensor3d.hh"
+#include "remesh/epsilon_search.hh"
+#include "surface/canonical_copy.hh"
+
+namespace anisomesh {
+
+namespace {
+
+/// Farther off, polygons need not be sound: their number tells the next epsilon.
+constexpr double kWanted = 0.3;
+/// A target buys most where lines leave wide gaps alone and samples go where the surface is farthest.
+constexpr double kSeedFraction = 0.8, kCellTolerance = 4;
+/// Polygons for the fit (MeshOptions::for_fit) in those for none, of the same lines.
+constexpr double kForFit = 0.765, kFacesForFit = 0.84;
+/// Off by so much, the balance that follows a fit makes up for it: better by adding vertices, which go to
+/// where the error is largest, than by taking them out, which costs quads.
+constexpr double kEnoughBelow = 0.08, kEnoughAbove = 0.07;
+/// It makes quads of triangles too, until there are hardly more faces than this for each vertex; on a closed
+/// surface of quads alone there is one for each, and one more for each below zero of the Euler
+/// characteristic.
+constexpr double kFacesLeft = 1.1;
+
+constexpr size_t most_wanted = 10'000'000;  // more than memory holds
+
+/// So many times the vertices that there have to be, no other epsilon need be tried for fewer.
+constexpr double kHardlyMore = 1.05;
+
+/// What the components alone need, however coarse: tetrahedra, and triangles of those with a border.
+size_t least_vertices(const OpenMesh::TriConnectivity& mesh) {
+  std::vector<char> seen(mesh.n_faces(), 0);
+  std::vector<OpenMesh::FaceHandle> open;
+  size_t count = 0;
+  const auto reach = [&](OpenMesh::FaceHandle f) {
+    if (seen[static_cast<size_t>(f.idx())]) return;
+    seen[static_cast<size_t>(f.idx())] = 1;
+    open.push_back(f);
+  };
+  for (const auto start : mesh.all_faces()) {
+    if (seen[static_cast<size_t>(start.idx())]) continue;
+    bool closed = true;
+    for (reach(start); !open.empty();) {
+      const auto f = open.back();
+      open.pop_back();
+      for (const auto h : mesh.fh_range(f)) {
+        const auto across = mesh.opposite_halfedge_handle(h);
+        closed = closed && !mesh.is_boundary(across);
+        if (!mesh.is_boundary(across)) reach(mesh.face_handle(across));
+      }
+    }
+    count += closed ? 4 : 3;
+  }
+  return count;
+}
+
+/// The number of crossings that the density asks for: one for each rectangle of the two spacings.
+class CrossingModel {
+ public:
+  CrossingModel(const SurfaceRef& surface, const DensityOptions& options)
+      : options_(options), diagonal_(surface.diagonal()), extent_(surface.extent()) {
+    const auto& mesh = surface.connectivity();
+    patches_.resize(mesh.n_vertices());
+    if (is_flattened(surface))
+      take_plane_tensors(mesh);
+    else
+      take_surface_tensors(mesh);
+    double total = 0, bent = 0;
+    for (const auto f : mesh.faces()) {
+      const auto corners = surface.corners(f);
+      const Vec3d &a = surface.point(corners.vertex[0]), &b = surface.point(corners.vertex[1]),
+                  &c = surface.point(corners.vertex[2]);
+      const double third = ((b - a) % (c - a)).norm() / 6;
+      for (const auto v : corners.vertex) {
+        auto& patch = patches_[static_cast<size_t>(v.idx())];
+        patch.area += third;
+        total += third;
+        bent += third * std::max(std::abs(patch.k_min), std::abs(patch.k_max));
+      }
+    }
+    mean_curvature_ = total > 0 ? bent / total : 0;
+  }
+
+  /// \param epsilon model units
+  double count(double epsilon) const {
+    DensityOptions options = options_;
+    options.epsilon_fraction = epsilon / diagonal_;
+    const Density density(options, diagonal_, extent_, mean_curvature_);
+    double sum = 0;
+    for (const Patch& patch : patches_)
+      sum += patch.area / (density.min_line_spacing(patch.k_min, patch.k_max) *
+                           density.max_line_spacing(patch.k_min, patch.k_max));
+    return sum;
+  }
+
+ private:
+  struct Patch {
+    double area = 0, k_min = 0, k_max = 0;
+  };
+
+  void take_plane_tensors(const OpenMesh::TriConnectivity& mesh) {
+    const auto tensor = require_property(mesh, property::tensor2d);
+    for (const auto v : mesh.vertices()) {
+      auto& patch = patches_[static_cast<size_t>(v.idx())];
+      detail::eigenvalues(mesh.property(tensor, v), patch.k_min, patch.k_max);
+    }
+  }
+
+  void take_surface_tensors(const OpenMesh::TriConnectivity& mesh) {
+    const auto tensor = require_property(mesh, property::surface_tensor);
+    const auto normal = require_property(mesh, property::normal);
+    for (const auto v : mesh.vertices()) {
+      auto& patch = patches_[static_cast<size_t>(v.idx())];
+      const detail::TangentFrame frame(mesh.property(normal, v));
+      detail::eigenvalues(detail::in_frame(mesh.property(tensor, v), frame), patch.k_min, patch.k_max);
+    }
+  }
+
+  DensityOptions options_;
+  double diagonal_, extent_;
+  double mean_curvature_ = 0;
+  std::vector<Patch> patches_;
+};
+
+}  // namespace
+
+void TargetOptions::validate() const {
+  if (target_faces > 0 && target_vertices > 0)
+    throw InvalidOption("target_faces and target_vertices exclude each other: give one");
+  const size_t most = std::max(target_faces, target_vertices);
+  if (most > most_wanted)
+    throw InvalidOption((target_faces > 0 ? "target_faces" : "target_vertices") +
+                        std::string(" must be at most ") + std::to_string(most_wanted) + ", but is " +
+                        std::to_string(most));
+  if (!(tolerance > 0 && tolerance < 1))
+    throw InvalidOption("tolerance must be above 0 and below 1, but is " + std::to_string(tolerance));
+  if (max_attempts < 1)
+    throw InvalidOption("max_attempts must be at least 1, but is " + std::to_string(max_attempts));
+}
+
+OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions& trace,
+                                  const MeshOptions& mesh, const TargetOptions& target,
+                                  TraceAndMeshReport* report, const Progress& progress) {
+  if (!surface.canonical_copy())
+    return detail::in_canonical_order(surface, [&](const SurfaceRef& ordered) {
+      return trace_and_mesh(ordered, trace, mesh, target, report, progress);
+    });
+  const auto start = std::chrono::steady_clock::now();
+  target.validate();
+  trace.validate();
+  mesh.validate();
+
+  const double diagonal = surface.diagonal();
+  const double wanted = static_cast<double>(std::max(target.target_faces, target.target_vertices));
+  TraceOptions options = trace;
+  MeshOptions polygons = mesh;
+  if (wanted > 0 && options.seed_fraction == 0)
+    options.seed_fraction = std::max(options.stop_fraction, kSeedFraction);
+  if (wanted > 0 && !options.relax_passes) options.relax_passes = 0;
+  if (wanted > 0 && polygons.cell_tolerance == 0) polygons.cell_tolerance = kCellTolerance;
+  TraceAndMeshReport done;
+  const bool balanced = mesh.for_fit && (mesh.max_degree == 3 || mesh.max_degree == 4);
+  auto& connectivity = surface.connectivity();
+  const double euler = static_cast<double>(connectivity.n_vertices() + connectivity.n_faces()) -
+                       static_cast<double>(connectivity.n_edges());
+  const auto count_of = [&](size_t vertices, size_t faces) {
+    if (target.target_faces == 0) return vertices;
+    const double left = kFacesLeft * std::max(0.0, static_cast<double>(vertices) - euler);
+    return balanced && mesh.max_degree == 4 ? std::min(faces, static_cast<size_t>(left)) : faces;
+  };
+  // With `any` count, or only one that is near the target, worth being made sound.
+  const auto run = [&](double from, double to, bool any) {
+    const double span = to - from;
+    done.trace = trace_lines(surface, options, sub_progress(progress, from, from + 0.5 * span));
+    done.isotropic = place_isotropic_samples(surface, options,
+                                             sub_progress(progress, from + 0.5 * span, from + 0.6 * span));
+    done.epsilon_fraction = options.density.epsilon(diagonal, surface.extent()) / diagonal;
+    if (wanted > 0) {  // for a build_polygons() to come
+      connectivity.property(provide_property(connectivity, property::cell_tolerance)) =
+          polygons.cell_tolerance;
+    }
+    const auto is_wanted = [&](size_t vertices, size_t faces) {
+      const double count = static_cast<double>(count_of(vertices, faces));
+      return any || std::abs(count / wanted - 1) <= kWanted;
+    };
+    return detail::attempt_polygons(surface, polygons, is_wanted, &done.mesh,
+                                    sub_progress(progress, from + 0.6 * span, to));
+  };
+  const auto finish = [&](OpenMesh::PolyMesh&& result) {
+    report_progress(progress, 1);  // the search may have ended early
+    done.attempts_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (report) *report = done;
+    return std::move(result);
+  };
+  if (wanted == 0) return finish(run(0, 1, true).mesh);
+
+  const CrossingModel model(surface, trace.density);
+  const size_t least = least_vertices(connectivity);
+  OpenMesh::PolyMesh last, best;
+  TraceAndMeshReport of_best;
+  LineNetwork lines_of_best;
+  bool is_last_best = false;
+  detail::EpsilonSearch search;
+  if (balanced) search.enough_below = kEnoughBelow, search.enough_above = kEnoughAbove;
+  // For as many crossings there are fewer polygons where tolerances are wider.
+  const double share = !mesh.for_fit ? 1 : target.target_faces > 0 ? kFacesForFit : kForFit;
+  // In fractions of the extent, so that the same ones are tried however the surface is turned.
+  search.crossings = [&](double epsilon) { return share * model.count(epsilon * surface.extent()); };
+  search.make = [&, made = 0](double epsilon, bool any) mutable {
+    options.density.epsilon_fraction = epsilon * surface.extent() / diagonal;
+    is_last_best = false;
+    ++made;
+    auto attempt = run(1 - std::pow(0.6, made - 1), 1 - std::pow(0.6, made), any);
+    last = std::move(attempt.mesh);
+    return detail::EpsilonSearch::Made{
+        count_of(done.mesh.vertices, done.mesh.faces), attempt.sound,
+        static_cast<double>(done.mesh.vertices) <= kHardlyMore * static_cast<double>(least)};
+  };
+  search.keep = [&] {
+    best = std::move(last);
+    of_best = done;
+    lines_of_best = read_lines(surface);
+    is_last_best = true;
+  };
+  const detail::FoundEpsilon found = detail::search_epsilon(wanted, target, search);
+  done = of_best;
+  done.attempts = found.attempts;
+  done.tried = found.tried;
+  for (Attempt& attempt : done.tried) attempt.epsilon_fraction *= surface.extent() / diagonal;
+  done.target_met = found.met;
+  if (!is_last_best) {
+    write_lines(surface, lines_of_best);
+    const auto epsilon = provide_property(surface.connectivity(), property::epsilon);
+    surface.connectivity().property(epsilon) = done.epsilon_fraction * diagonal;
+  }
+  if (balanced && found.met) {  // what is farther off stays so: features, say, ask for as many
+    const auto leave = [&](const auto& declaration, size_t count) {
+      connectivity.property(provide_property(connectivity, declaration)) = static_cast<int>(count);
+    };
+    leave(property::target_vertices, target.target_vertices);
+    leave(property::target_faces, target.target_faces);
+  }
+  return finish(std::move(best));
+}
+
+}  // namespace anisomesh
