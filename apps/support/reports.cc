@@ -9,10 +9,15 @@ namespace apps {
 using namespace anisomesh;
 
 Json to_json(const ReadReport& r) {
-  return {{"merged_vertices", r.merged_vertices},         {"triangulated_polygons", r.triangulated_polygons},
-          {"degenerate_faces", r.degenerate_faces},       {"flat_faces", r.flat_faces},
-          {"duplicate_faces", r.duplicate_faces},         {"reoriented_faces", r.reoriented_faces},
-          {"duplicated_vertices", r.duplicated_vertices}, {"isolated_vertices", r.isolated_vertices}};
+  return {{"merged_vertices", r.merged_vertices},
+          {"joined_vertices", r.joined_vertices},
+          {"degenerate_faces", r.degenerate_faces},
+          {"triangulated_polygons", r.triangulated_polygons},
+          {"flat_faces", r.flat_faces},
+          {"duplicate_faces", r.duplicate_faces},
+          {"reoriented_faces", r.reoriented_faces},
+          {"duplicated_vertices", r.duplicated_vertices},
+          {"isolated_vertices", r.isolated_vertices}};
 }
 
 Json to_json(const FillReport& r) {
@@ -229,6 +234,7 @@ OpenMesh::TriMesh read_surface(Command& command, const std::string& path, ReadRe
   const auto warn = [&](size_t count, const std::string& what) {
     if (count > 0) command.warn(path + ": " + std::to_string(count) + " " + what);
   };
+  warn(found.joined_vertices, "vertices were made one with others in the same place but for rounding");
   warn(found.degenerate_faces, "faces with a corner twice were dropped");
   warn(found.flat_faces, "faces of pieces that have no area anywhere were dropped");
   warn(found.duplicate_faces, "duplicate faces were dropped");

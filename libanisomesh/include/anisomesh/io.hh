@@ -13,8 +13,9 @@ namespace anisomesh {
 
 struct ReadReport {
   size_t merged_vertices = 0;        ///< STL corners at the same place made one vertex
+  size_t joined_vertices = 0;        ///< ends of sides without length, made one vertex with another
   size_t triangulated_polygons = 0;  ///< faces of more than three corners
-  size_t degenerate_faces = 0;       ///< faces with a corner twice, dropped
+  size_t degenerate_faces = 0;       ///< faces with a corner twice, then or now, dropped
   size_t flat_faces = 0;             ///< of pieces that have no area anywhere, dropped
   size_t duplicate_faces = 0;        ///< faces with the same corners as an earlier one, dropped
   size_t reoriented_faces = 0;       ///< turned over to agree with most of their component

@@ -63,12 +63,11 @@ void drop_duplicate_faces(Soup& soup, ReadReport& report) {
   report.duplicate_faces += keep_faces(soup, keep);
 }
 
-void drop_isolated_vertices(Soup& soup, ReadReport& report) {
+void drop_isolated_vertices(Soup& soup, const std::vector<int>& place, ReadReport& report) {
   std::vector<char> used(soup.points.size(), 0);
   for (const int v : soup.corners) used[static_cast<size_t>(v)] = 1;
   const size_t n_used = static_cast<size_t>(std::count(used.begin(), used.end(), 1));
   if (n_used == soup.points.size()) return;
-  report.isolated_vertices += soup.points.size() - n_used;
   report.vertex_of.assign(soup.points.size(), -1);
   int next = 0;
   for (size_t v = 0; v < used.size(); ++v) {
@@ -76,7 +75,11 @@ void drop_isolated_vertices(Soup& soup, ReadReport& report) {
     soup.points[static_cast<size_t>(next)] = soup.points[v];
     report.vertex_of[v] = next++;
   }
+  for (size_t v = 0; v < place.size(); ++v)
+    report.vertex_of[v] = report.vertex_of[static_cast<size_t>(place[v])];
   soup.points.resize(static_cast<size_t>(next));
+  report.isolated_vertices +=
+      static_cast<size_t>(std::count(report.vertex_of.begin(), report.vertex_of.end(), -1));
   for (int& v : soup.corners) v = report.vertex_of[static_cast<size_t>(v)];
 }
 

@@ -66,7 +66,36 @@ bool is_flat(const Soup& soup, size_t f) {
   return !(((at(1) - at(0)) % (at(2) - at(0))).norm() > flat * longest);
 }
 
+/// Largest difference in a coordinate: no square that could overflow.
+double apart(const Soup& soup, int v, int w) {
+  return (soup.points[static_cast<size_t>(v)] - soup.points[static_cast<size_t>(w)]).l8_norm();
+}
+
 }  // namespace
+
+// A parametric source closes its seam with faces between vertices that differ in the last bits.
+std::vector<int> join_short_sides(Soup& soup, ReadReport& report) {
+  DisjointSets places(soup.points.size());
+  for (size_t f = 0; f < soup.n_faces(); ++f) {
+    const size_t n = soup.degree(f);
+    const int* corner = soup.face(f);
+    double longest = 0;
+    for (size_t k = 0; k < n; ++k) longest = std::max(longest, apart(soup, corner[k], corner[(k + 1) % n]));
+    for (size_t k = 0; k < n; ++k)
+      if (!(apart(soup, corner[k], corner[(k + 1) % n]) > flat * longest))
+        places.join(static_cast<size_t>(corner[k]), static_cast<size_t>(corner[(k + 1) % n]));
+  }
+  std::vector<int> place(soup.points.size());
+  size_t joined = 0;
+  for (size_t v = 0; v < place.size(); ++v) {
+    place[v] = static_cast<int>(places.root(v));
+    joined += place[v] != static_cast<int>(v);
+  }
+  report.joined_vertices += joined;
+  if (joined == 0) return {};
+  for (int& corner : soup.corners) corner = place[static_cast<size_t>(corner)];
+  return place;
+}
 
 // Nothing can be made of them, and where they hang on a surface they would cut it open.
 void drop_flat_pieces(Soup& soup, ReadReport& report) {

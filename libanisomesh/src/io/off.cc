@@ -5,14 +5,24 @@ namespace anisomesh::detail {
 
 namespace {
 
+/// Whether a word is OFF's keyword, in capitals or not: [ST][C][N]OFF says what follows the place in the line
+/// of a vertex, which is skipped.
+bool is_keyword(std::string word) {
+  for (char& c : word)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  if (word.size() < 3 || word.compare(word.size() - 3, 3, "OFF") != 0) return false;
+  word.resize(word.size() - 3);
+  if (word.compare(0, 2, "ST") == 0) word.erase(0, 2);
+  return word.find_first_not_of("CN") == std::string::npos;
+}
+
 /// Reads the header's keyword if there is one, and leaves the scanner in front of the counts.
 void read_keyword(Scanner& scanner, const std::string& path) {
   if (!scanner.next_line()) throw InvalidInput(path + ": the file is empty");
   Scanner ahead = scanner;
   const std::string keyword(ahead.word());
   if (!keyword.empty() && keyword.find_first_not_of("0123456789") == std::string::npos) return;
-  if (keyword != "OFF" && keyword != "COFF" && keyword != "NOFF" && keyword != "CNOFF" &&
-      keyword != "STOFF" && keyword != "STCNOFF" && keyword != "STNOFF" && keyword != "STCOFF")
+  if (!is_keyword(keyword))
     scanner.fail("expected 'OFF' (three dimensions), so this is no OFF file that can be read");
   scanner = ahead;
   if (scanner.at_end_of_line()) {

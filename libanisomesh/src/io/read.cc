@@ -79,12 +79,14 @@ OpenMesh::TriMesh surface_of(Soup soup, const std::string& path, ReadReport& rep
   const size_t n_points = soup.points.size();
   detail::drop_degenerate_faces(soup, report);
   detail::triangulate(soup, report);
+  const std::vector<int> place = detail::join_short_sides(soup, report);
+  if (!place.empty()) detail::drop_degenerate_faces(soup, report);
   detail::drop_duplicate_faces(soup, report);
   if (soup.n_faces() == 0) throw InvalidInput(path + ": no face has three different corners");
   detail::drop_flat_pieces(soup, report);
   detail::orient(soup, report);
   detail::split_non_manifold(soup, report);
-  detail::drop_isolated_vertices(soup, report);
+  detail::drop_isolated_vertices(soup, place, report);
   if (!report.vertex_of.empty()) report.vertex_of.resize(n_points);
   return mesh_of<OpenMesh::TriMesh>(soup, report);
 }

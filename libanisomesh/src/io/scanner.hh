@@ -20,7 +20,10 @@ class Scanner {
         end_(text.data() + text.size()),
         path_(path),
         comment_(comment),
-        line_(first_line - 1) {}
+        line_(first_line - 1) {
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";  // of UTF-8, as some editors write it
+    if (text.substr(0, 3) == byte_order_mark) next_ += 3;
+  }
 
   /// Moves to the next line that holds anything; false at the end of the file. Lines end with LF, CR LF or
   /// CR.
