@@ -1,5 +1,6 @@
 #include "anisomesh/refine.hh"
 
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -141,6 +142,44 @@ TEST_CASE("no more triangles than are allowed, the longest divided first", "[ref
     return most;
   };
   CHECK(longest(fine) < 0.6 * longest(mesh));
+}
+
+namespace {
+
+struct StatusTraits : OpenMesh::DefaultTraits {
+  VertexAttributes(OpenMesh::Attributes::Status);
+  EdgeAttributes(OpenMesh::Attributes::Status);
+  FaceAttributes(OpenMesh::Attributes::Status | OpenMesh::Attributes::Color);
+};
+using StatusMesh = OpenMesh::TriMesh_ArrayKernelT<StatusTraits>;
+
+}  // namespace
+
+TEST_CASE("a mesh of the caller's own traits and properties is refined alike", "[refine]") {
+  const auto plain = can(24, 5);
+  OpenMesh::EPropHandleT<double> weight;
+  StatusMesh mesh;
+  mesh.add_property(weight);
+  for (const auto v : plain.vertices()) mesh.add_vertex(OpenMesh::Vec3f(plain.point(v)));
+  for (const auto f : plain.faces()) {
+    std::vector<VertexHandle> corners;
+    for (const auto v : f.vertices()) corners.push_back(v);
+    mesh.add_face(corners);
+  }
+  OpenMesh::TriMesh same = empty();
+  for (const auto v : mesh.vertices()) same.add_vertex(Vec3d(mesh.point(v)));
+  for (const auto f : mesh.faces()) {
+    std::vector<VertexHandle> corners;
+    for (const auto v : f.vertices()) corners.push_back(v);
+    same.add_face(corners);
+  }
+  tag_features(mesh);
+  tag_features(same);
+  const auto fine = refine(mesh), expected = refine(same);
+  REQUIRE(fine.n_vertices() == expected.n_vertices());
+  for (const auto v : fine.vertices()) CHECK(fine.point(v) == expected.point(v));
+  CHECK(feature_length(fine) == feature_length(expected));
+  CHECK(feature_length(fine) > 0);
 }
 
 TEST_CASE("parts that meet in a vertex only are refined as they are", "[refine]") {

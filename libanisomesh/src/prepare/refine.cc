@@ -27,6 +27,23 @@ size_t at(Handle handle) {
   return static_cast<size_t>(handle.idx());
 }
 
+/// The same elements with the same numbers. OpenMesh's own assign_connectivity() takes the handles of the
+/// status along, which stand for other properties where the mesh has its own traits or properties.
+void copy_connectivity(const OpenMesh::TriConnectivity& from, OpenMesh::TriConnectivity& to) {
+  for (size_t v = 0; v < from.n_vertices(); ++v) to.new_vertex();
+  for (const auto e : from.all_edges()) {
+    const auto h = from.halfedge_handle(e, 0);
+    to.new_edge(from.from_vertex_handle(h), from.to_vertex_handle(h));
+  }
+  for (size_t f = 0; f < from.n_faces(); ++f) to.new_face();
+  for (const auto v : from.all_vertices()) to.set_halfedge_handle(v, from.halfedge_handle(v));
+  for (const auto f : from.all_faces()) to.set_halfedge_handle(f, from.halfedge_handle(f));
+  for (const auto h : from.all_halfedges()) {
+    if (from.next_halfedge_handle(h).is_valid()) to.set_next_halfedge_handle(h, from.next_halfedge_handle(h));
+    to.set_face_handle(h, from.face_handle(h));
+  }
+}
+
 class Refiner {
  public:
   Refiner(const SurfaceRef& surface, const RefineOptions& options);
@@ -53,15 +70,10 @@ Refiner::Refiner(const SurfaceRef& surface, const RefineOptions& options)
       budget_(options.max_triangles > 0 ? options.max_triangles
                                         : std::max(least_budget, 2 * surface.connectivity().n_faces())) {
   const auto& given = surface.connectivity();
-  // OpenMesh copies each status into one that has to be there, and where there is none to copy takes it away.
-  if (given.has_vertex_status()) mesh.request_vertex_status();
-  if (given.has_halfedge_status()) mesh.request_halfedge_status();
-  if (given.has_edge_status()) mesh.request_edge_status();
-  if (given.has_face_status()) mesh.request_face_status();
-  mesh.assign_connectivity(given);
-  if (!given.has_vertex_status()) mesh.request_vertex_status();
-  if (!given.has_edge_status()) mesh.request_edge_status();
-  if (!given.has_face_status()) mesh.request_face_status();
+  copy_connectivity(given, mesh);
+  mesh.request_vertex_status();
+  mesh.request_edge_status();
+  mesh.request_face_status();
   for (const auto v : given.vertices()) mesh.set_point(v, surface.point(v));
   if (given.has_edge_status())
     for (const auto e : given.edges()) mesh.status(e).set_feature(given.status(e).feature());
