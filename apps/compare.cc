@@ -31,6 +31,7 @@ int main(int argc, char* argv[]) {
       "anisomesh-compare",
       "The honest ruler: measures a polygonal result against the triangle mesh it stands for.");
   std::string reference_path, result_path, map_path;
+  ReadOptions reading;
   CompareOptions options;
   CurvatureOptions curvature;
   command.input(reference_path, "reference", "The surface: .obj, .off, .ply, .stl or .om");
@@ -54,12 +55,14 @@ int main(int argc, char* argv[]) {
                  "Alignment counts where anisotropy is above this")
       ->type_name("A")
       ->group("Measuring");
+  apps::add_weld_option(command, reading);
   apps::add_curvature_options(command, curvature);
 
   return command.run(argc, argv, [&] {
+    reading.validate();
     options.validate();
     curvature.validate();
-    auto reference = apps::read_surface(command, reference_path);
+    auto reference = apps::read_surface(command, reference_path, nullptr, reading);
     ReadReport read;
     auto result = read_polygons(result_path, &read);
     command.report()["read_result"] = apps::to_json(read);

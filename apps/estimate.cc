@@ -10,23 +10,26 @@ int main(int argc, char* argv[]) {
   apps::Command command("anisomesh-estimate",
                         "First stage: tags feature edges and estimates curvature tensors at the vertices.");
   std::string input, output;
+  anisomesh::ReadOptions reading;
   anisomesh::FillOptions fill;
   apps::RefineFlags refine;
   apps::FeatureFlags features;
   anisomesh::CurvatureOptions curvature;
   command.input(input, "input", "The surface: .obj, .off, .ply, .stl or .om");
   command.output(output, "Where to write the surface; only .om keeps what was found");
+  apps::add_weld_option(command, reading);
   apps::add_fill_option(command, fill);
   apps::add_feature_options(command, features);
   apps::add_refine_option(command, refine);
   apps::add_curvature_options(command, curvature);
 
   return command.run(argc, argv, [&] {
+    reading.validate();
     fill.validate();
     refine.options.validate();
     curvature.validate();
     anisomesh::ReadReport read;
-    auto mesh = apps::read_surface(command, input, &read);
+    auto mesh = apps::read_surface(command, input, &read, reading);
     apps::fill_holes(command, mesh, read, fill);
     const auto tagged = anisomesh::tag_features(mesh, apps::resolve(features, read));
     apps::refine(command, mesh, refine, tagged);

@@ -61,6 +61,7 @@ int main(int argc, char* argv[]) {
                         "Remeshes a triangle mesh with quads that follow its lines of curvature. Writes the "
                         "same bytes as anisomesh-estimate, -flatten, -trace and -mesh in a row.");
   std::string input, output, page;
+  anisomesh::ReadOptions reading;
   anisomesh::FillOptions fill;
   apps::RefineFlags refine;
   apps::FeatureFlags features;
@@ -77,6 +78,7 @@ int main(int argc, char* argv[]) {
       ->group("Output");
   apps::add_density_options(command, epsilon, options.trace);
   apps::add_target_options(command, options);
+  apps::add_weld_option(command, reading);
   apps::add_fill_option(command, fill);
   apps::add_feature_options(command, features);
   apps::add_refine_option(command, refine);
@@ -93,12 +95,13 @@ int main(int argc, char* argv[]) {
 
   return command.run(argc, argv, [&] {
     options.trace.density.epsilon_fraction = epsilon.epsilon;
+    reading.validate();
     fill.validate();
     refine.options.validate();
     options.validate();  // before a long file is read
     if (!page.empty()) view::require_page(page);
     anisomesh::ReadReport read;
-    auto mesh = apps::read_surface(command, input, &read);
+    auto mesh = apps::read_surface(command, input, &read, reading);
     apps::fill_holes(command, mesh, read, fill);
     const auto tagged = anisomesh::tag_features(mesh, apps::resolve(features, read));
     apps::refine(command, mesh, refine, tagged);

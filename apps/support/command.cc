@@ -58,6 +58,7 @@ std::string in_words_of_apps(std::string message) {
       {"seed_fraction", "--seed-fraction"},
       {"min_crossings", "--min-crossings"},
       {"relax_passes", "--relax-passes"},
+      {"weld_fraction", "--weld"},
       {"max_edges of a hole", "--fill-holes"},
       {"max_edge_fraction", "--refine"},
       {"corner_angle_degrees", "--corner-angle"},

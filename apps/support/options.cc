@@ -31,6 +31,15 @@ void add_choice(CLI::App& app, const std::string& name, Enum& value,
 
 }  // namespace
 
+void add_weld_option(Command& command, ReadOptions& options) {
+  command.arguments()
+      .add_option("--weld", options.weld_fraction,
+                  "Make border edges one that lie this near to one another, fraction of the extent, at most "
+                  "0.1; 0: none")
+      ->type_name("F")
+      ->group("Reading");
+}
+
 void add_fill_option(Command& command, FillOptions& options) {
   command.arguments()
       .add_option("--fill-holes", options.max_edges,

@@ -23,6 +23,8 @@ struct EpsilonFlags {
   bool absolute = false;
 };
 
+/// --weld.
+void add_weld_option(Command& command, anisomesh::ReadOptions& options);
 /// --fill-holes.
 void add_fill_option(Command& command, anisomesh::FillOptions& options);
 /// What --refine says.

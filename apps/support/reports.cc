@@ -17,7 +17,9 @@ Json to_json(const ReadReport& r) {
           {"duplicate_faces", r.duplicate_faces},
           {"reoriented_faces", r.reoriented_faces},
           {"duplicated_vertices", r.duplicated_vertices},
-          {"isolated_vertices", r.isolated_vertices}};
+          {"isolated_vertices", r.isolated_vertices},
+          {"welded_vertices", r.welded_vertices},
+          {"coincident_edges", r.coincident_edges}};
 }
 
 Json to_json(const FillReport& r) {
@@ -224,9 +226,10 @@ Json to_json(const Comparison& c) {
           {"comparison_seconds", c.seconds}};
 }
 
-OpenMesh::TriMesh read_surface(Command& command, const std::string& path, ReadReport* report) {
+OpenMesh::TriMesh read_surface(Command& command, const std::string& path, ReadReport* report,
+                               const ReadOptions& options) {
   ReadReport found;
-  auto mesh = anisomesh::read_surface(path, &found);
+  auto mesh = anisomesh::read_surface(path, &found, options);
   Json json = to_json(found);
   json["vertices"] = mesh.n_vertices();
   json["faces"] = mesh.n_faces();
@@ -242,6 +245,11 @@ OpenMesh::TriMesh read_surface(Command& command, const std::string& path, ReadRe
   warn(found.duplicated_vertices,
        "vertices were added where the surface is not manifold; it is cut open there");
   warn(found.isolated_vertices, "vertices without a face were dropped");
+  warn(found.coincident_edges,
+       "pairs of border edges lie on one another, as where a file has vertices twice; the surface stays open "
+       "there, and --weld 1e-6 closes it");
+  if (found.welded_vertices > 0)
+    command.say(path + ": " + std::to_string(found.welded_vertices) + " vertices made one with another");
   if (report) *report = std::move(found);
   return mesh;
 }

@@ -40,7 +40,8 @@ std::vector<std::pair<std::string, std::string>> comparison_lines(const anisomes
 
 /// Reads a surface for an app: reports what reading did, and warns where the file was not sound.
 OpenMesh::TriMesh read_surface(Command& command, const std::string& path,
-                               anisomesh::ReadReport* report = nullptr);
+                               anisomesh::ReadReport* report = nullptr,
+                               const anisomesh::ReadOptions& options = {});
 
 /// Closes holes if they are to be closed, says so, and carries the vertex numbers in `read` along.
 void fill_holes(Command& command, OpenMesh::TriMesh& mesh, anisomesh::ReadReport& read,

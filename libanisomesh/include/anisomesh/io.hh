@@ -11,6 +11,14 @@
 
 namespace anisomesh {
 
+struct ReadOptions {
+  /// Border edges whose ends are no farther from each other than this fraction of the extent are made one,
+  /// where two lie there and no more; in [0, 0.1]. Files have them where textures or patches meet, and around
+  /// every face where they know no shared vertices. 0: the surface stays open there.
+  double weld_fraction = 0;
+  void validate() const;  ///< \throw InvalidOption
+};
+
 struct ReadReport {
   size_t merged_vertices = 0;        ///< STL corners at the same place made one vertex
   size_t joined_vertices = 0;        ///< ends of sides without length, made one vertex with another
@@ -21,14 +29,17 @@ struct ReadReport {
   size_t reoriented_faces = 0;       ///< turned over to agree with most of their component
   size_t duplicated_vertices = 0;    ///< made because a vertex or edge is not manifold, or one-sided
   size_t isolated_vertices = 0;      ///< of no face, dropped
+  size_t welded_vertices = 0;        ///< made one with another, as ReadOptions::weld_fraction asked
+  size_t coincident_edges = 0;       ///< pairs of border edges in one place but for rounding, left open
   /// Vertex of the mesh for each vertex of the file, -1 where it was dropped; empty where they are the same.
   std::vector<int> vertex_of;
 };
 
 /// Reads OBJ, OFF, PLY, STL or OM (with all its properties) as a triangle mesh with vertex, edge and face
-/// status. Vertices and faces keep the order of the file. \throw InvalidInput naming the file, the element
-/// and the way out
-OpenMesh::TriMesh read_surface(const std::string& path, ReadReport* report = nullptr);
+/// status. Vertices and faces keep the order of the file. Triangles in OM are what a stage has left: they are
+/// not welded. \throw InvalidInput naming the file, the element and the way out \throw InvalidOption
+OpenMesh::TriMesh read_surface(const std::string& path, ReadReport* report = nullptr,
+                               const ReadOptions& options = {});
 
 /// Reads a polygonal mesh (OBJ, OFF, PLY, STL, OM) as it is: nothing is triangulated or turned over, isolated
 /// vertices stay; only what an OpenMesh cannot hold is dropped or split, and reported. \throw InvalidInput

@@ -63,7 +63,11 @@ void drop_duplicate_faces(Soup& soup, ReadReport& report) {
   report.duplicate_faces += keep_faces(soup, keep);
 }
 
-void drop_isolated_vertices(Soup& soup, const std::vector<int>& place, ReadReport& report) {
+void take_places(Soup& soup, DisjointSets& places) {
+  for (int& corner : soup.corners) corner = static_cast<int>(places.root(static_cast<size_t>(corner)));
+}
+
+void drop_isolated_vertices(Soup& soup, DisjointSets& places, ReadReport& report) {
   std::vector<char> used(soup.points.size(), 0);
   for (const int v : soup.corners) used[static_cast<size_t>(v)] = 1;
   const size_t n_used = static_cast<size_t>(std::count(used.begin(), used.end(), 1));
@@ -75,8 +79,7 @@ void drop_isolated_vertices(Soup& soup, const std::vector<int>& place, ReadRepor
     soup.points[static_cast<size_t>(next)] = soup.points[v];
     report.vertex_of[v] = next++;
   }
-  for (size_t v = 0; v < place.size(); ++v)
-    report.vertex_of[v] = report.vertex_of[static_cast<size_t>(place[v])];
+  for (size_t v = 0; v < places.size(); ++v) report.vertex_of[v] = report.vertex_of[places.root(v)];
   soup.points.resize(static_cast<size_t>(next));
   report.isolated_vertices +=
       static_cast<size_t>(std::count(report.vertex_of.begin(), report.vertex_of.end(), -1));

@@ -1,59 +1,12 @@
 #include <algorithm>
-#include <numeric>
 
+#include "io/sides.hh"
 #include "io/soup.hh"
 #include "numerics/disjoint_sets.hh"
 
 namespace anisomesh::detail {
 
 namespace {
-
-/// The sides of all faces, those of one edge beside each other. Side i runs from corner i to the next one.
-struct Sides {
-  explicit Sides(const Soup& soup) : next(soup.corners.size()), face(soup.corners.size()) {
-    for (size_t f = 0; f < soup.n_faces(); ++f)
-      for (size_t i = soup.begins[f]; i < soup.begins[f + 1]; ++i) {
-        next[i] = i + 1 == soup.begins[f + 1] ? soup.begins[f] : i + 1;
-        face[i] = f;
-      }
-    std::vector<size_t> begin(soup.points.size() + 1, 0);
-    const auto low = [&](size_t i) { return static_cast<size_t>(std::min(from(soup, i), to(soup, i))); };
-    for (size_t i = 0; i < next.size(); ++i) ++begin[low(i) + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    sorted.resize(next.size());
-    std::vector<size_t> fill(begin.begin(), begin.end() - 1);
-    for (size_t i = 0; i < next.size(); ++i) sorted[fill[low(i)]++] = i;
-    for (size_t v = 0; v + 1 < begin.size(); ++v)
-      std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin[v]),
-                sorted.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]), [&](size_t a, size_t b) {
-                  const int high_a = std::max(from(soup, a), to(soup, a));
-                  const int high_b = std::max(from(soup, b), to(soup, b));
-                  return high_a != high_b ? high_a < high_b : a < b;
-                });
-  }
-
-  int from(const Soup& soup, size_t side) const { return soup.corners[side]; }
-  int to(const Soup& soup, size_t side) const { return soup.corners[next[side]]; }
-
-  /// Calls `visit(a, b)` for the two sides of every edge that has exactly two.
-  template <class Visit>
-  void for_each_pair(const Soup& soup, Visit visit) const {
-    const auto same_edge = [&](size_t a, size_t b) {
-      return (from(soup, a) == from(soup, b) && to(soup, a) == to(soup, b)) ||
-             (from(soup, a) == to(soup, b) && to(soup, a) == from(soup, b));
-    };
-    for (size_t i = 0; i < sorted.size();) {
-      size_t j = i + 1;
-      while (j < sorted.size() && same_edge(sorted[i], sorted[j])) ++j;
-      if (j - i == 2) visit(sorted[i], sorted[i + 1]);
-      i = j;
-    }
-  }
-
-  std::vector<size_t> next;
-  std::vector<size_t> face;
-  std::vector<size_t> sorted;
-};
 
 /// Height over length of a triangle below which coordinates in a file have rounded its area away.
 constexpr double flat = 1e-7;
@@ -74,8 +27,7 @@ double apart(const Soup& soup, int v, int w) {
 }  // namespace
 
 // A parametric source closes its seam with faces between vertices that differ in the last bits.
-std::vector<int> join_short_sides(Soup& soup, ReadReport& report) {
-  DisjointSets places(soup.points.size());
+void join_short_sides(const Soup& soup, DisjointSets& places, ReadReport& report) {
   for (size_t f = 0; f < soup.n_faces(); ++f) {
     const size_t n = soup.degree(f);
     const int* corner = soup.face(f);
@@ -83,18 +35,9 @@ std::vector<int> join_short_sides(Soup& soup, ReadReport& report) {
     for (size_t k = 0; k < n; ++k) longest = std::max(longest, apart(soup, corner[k], corner[(k + 1) % n]));
     for (size_t k = 0; k < n; ++k)
       if (!(apart(soup, corner[k], corner[(k + 1) % n]) > flat * longest))
-        places.join(static_cast<size_t>(corner[k]), static_cast<size_t>(corner[(k + 1) % n]));
+        report.joined_vertices +=
+            places.join(static_cast<size_t>(corner[k]), static_cast<size_t>(corner[(k + 1) % n]));
   }
-  std::vector<int> place(soup.points.size());
-  size_t joined = 0;
-  for (size_t v = 0; v < place.size(); ++v) {
-    place[v] = static_cast<int>(places.root(v));
-    joined += place[v] != static_cast<int>(v);
-  }
-  report.joined_vertices += joined;
-  if (joined == 0) return {};
-  for (int& corner : soup.corners) corner = place[static_cast<size_t>(corner)];
-  return place;
 }
 
 // Nothing can be made of them, and where they hang on a surface they would cut it open.

@@ -75,18 +75,24 @@ Mesh mesh_of(const Soup& soup, ReadReport& report) {
   return mesh;
 }
 
-OpenMesh::TriMesh surface_of(Soup soup, const std::string& path, ReadReport& report) {
+OpenMesh::TriMesh surface_of(Soup soup, const std::string& path, const ReadOptions& options,
+                             ReadReport& report) {
   const size_t n_points = soup.points.size();
   detail::drop_degenerate_faces(soup, report);
   detail::triangulate(soup, report);
-  const std::vector<int> place = detail::join_short_sides(soup, report);
-  if (!place.empty()) detail::drop_degenerate_faces(soup, report);
+  detail::DisjointSets places(n_points);
+  detail::join_short_sides(soup, places, report);
+  detail::take_places(soup, places);
+  detail::drop_degenerate_faces(soup, report);
+  detail::weld(soup, options.weld_fraction, places, report);
+  detail::take_places(soup, places);
+  detail::drop_degenerate_faces(soup, report);
   detail::drop_duplicate_faces(soup, report);
   if (soup.n_faces() == 0) throw InvalidInput(path + ": no face has three different corners");
   detail::drop_flat_pieces(soup, report);
   detail::orient(soup, report);
   detail::split_non_manifold(soup, report);
-  detail::drop_isolated_vertices(soup, place, report);
+  detail::drop_isolated_vertices(soup, places, report);
   if (!report.vertex_of.empty()) report.vertex_of.resize(n_points);
   return mesh_of<OpenMesh::TriMesh>(soup, report);
 }
@@ -112,13 +118,19 @@ void require_finite(const Mesh& mesh, const std::string& path) {
 
 }  // namespace
 
-OpenMesh::TriMesh read_surface(const std::string& path, ReadReport* report) {
+void ReadOptions::validate() const {
+  if (!(weld_fraction >= 0 && weld_fraction <= 0.1))
+    throw InvalidOption("weld_fraction is " + std::to_string(weld_fraction) + ", must be in [0, 0.1]");
+}
+
+OpenMesh::TriMesh read_surface(const std::string& path, ReadReport* report, const ReadOptions& options) {
+  options.validate();
   const std::string ending = detail::require_ending(path, detail::readable_endings());
   const std::string text = read_file(path);
   ReadReport found;
   OpenMesh::TriMesh mesh;
   if (ending != ".om") {
-    mesh = surface_of(read_soup(text, ending, path, found), path, found);
+    mesh = surface_of(read_soup(text, ending, path, found), path, options, found);
   } else if (detail::om_is_triangles(text, path)) {
     mesh = detail::read_om_triangles(text, path);
     if (mesh.n_faces() == 0) throw InvalidInput(path + ": there are no faces, so this is no surface");
@@ -126,7 +138,7 @@ OpenMesh::TriMesh read_surface(const std::string& path, ReadReport* report) {
   } else {  // properties of polygons mean nothing on their triangles
     const auto polygons = detail::read_om_polygons(text, path);
     require_finite(polygons, path);
-    mesh = surface_of(soup_of(polygons), path, found);
+    mesh = surface_of(soup_of(polygons), path, options, found);
   }
   if (report) *report = std::move(found);
   return mesh;

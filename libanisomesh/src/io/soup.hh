@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "anisomesh/io.hh"
+#include "numerics/disjoint_sets.hh"
 
 namespace anisomesh::detail {
 
@@ -37,9 +38,13 @@ void drop_degenerate_faces(Soup& soup, ReadReport& report);
 void drop_duplicate_faces(Soup& soup, ReadReport& report);
 /// Splits every polygon into triangles, in the plane of best fit, by ears.
 void triangulate(Soup& soup, ReadReport& report);
-/// Makes the two ends of a side one vertex where it has no length beside its triangle's longest one. What it
-/// leaves has faces with a corner twice. \return for each vertex the one it is now; empty: itself
-std::vector<int> join_short_sides(Soup& soup, ReadReport& report);
+/// Joins the two ends of a side where it has no length beside its triangle's longest one.
+void join_short_sides(const Soup& soup, DisjointSets& places, ReadReport& report);
+/// Joins the ends of border edges that are nearer each other than this fraction of the extent, where two
+/// edges and no more lie there. 0: only counts those that lie on one another but for rounding.
+void weld(const Soup& soup, double fraction, DisjointSets& places, ReadReport& report);
+/// Makes vertices that were joined one. Leaves faces with a corner twice.
+void take_places(Soup& soup, DisjointSets& places);
 /// Drops pieces, joined along edges of two faces, of triangles that all are without area; not all there is.
 void drop_flat_pieces(Soup& soup, ReadReport& report);
 /// Keeps the faces marked with 1, in their order; says how many went.
@@ -49,7 +54,7 @@ void orient(Soup& soup, ReadReport& report);
 /// Gives every fan of faces around a vertex a vertex of its own; edges of more than two faces, or of two
 /// faces that disagree, become borders.
 void split_non_manifold(Soup& soup, ReadReport& report);
-/// Drops vertices of no face and fills ReadReport::vertex_of. \param place what join_short_sides() returned
-void drop_isolated_vertices(Soup& soup, const std::vector<int>& place, ReadReport& report);
+/// Drops vertices of no face and fills ReadReport::vertex_of, those that were joined included.
+void drop_isolated_vertices(Soup& soup, DisjointSets& places, ReadReport& report);
 
 }  // namespace anisomesh::detail

@@ -16,11 +16,14 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void join(size_t a, size_t b) {
+  /// \return whether they were in two sets
+  bool join(size_t a, size_t b) {
     a = root(a);
     b = root(b);
     parent_[std::max(a, b)] = std::min(a, b);
+    return a != b;
   }
+  size_t size() const { return parent_.size(); }
 
  private:
   std::vector<size_t> parent_;
