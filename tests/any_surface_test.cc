@@ -417,6 +417,24 @@ TEST_CASE("features that are asked for are covered over all of their length, on 
   }
 }
 
+// Where nodes go from a straightened feature one by one, and where the fit moves a vertex between two sides
+// that are longer than the input's edge.
+TEST_CASE("features stay near however they are straightened, and cells beside them ask for few faces",
+          "[any_surface]") {
+  for (const char* name : {"camel.off", "dino.off"}) {
+    const auto path = demo_mesh(name);
+    if (!path) return skip(name);
+    auto mesh = read_surface(*path);
+    RemeshOptions options;
+    options.target_faces = 2000;
+    options.features.angle_degrees = 40;
+    const auto result = remesh(mesh, options);
+    INFO(name);
+    CHECK(covered_share(mesh, result) == 1);
+    CHECK(std::abs(static_cast<double>(result.n_faces()) / 2000 - 1) < 0.1);  // dino had 2,652
+  }
+}
+
 // The foot of a fin between features is one edge of polygons on one side and two on the other.
 TEST_CASE("polygons on both sides of a straight feature share its vertices", "[any_surface]") {
   const auto path = demo_mesh("hand.off");

@@ -15,6 +15,7 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 constexpr int pieces = 2;  // samples on an edge of the input, beside those that are only watched
 constexpr double watched = 8, most_watched = 64;  // places for each side of the result, and at all
+constexpr int halvings = 8;                       // of the way between two places
 
 }  // namespace
 
@@ -45,7 +46,8 @@ FitCurves::FitCurves(const SurfaceRef& surface, const FitMesh& mesh, const FitMa
       sample.side = -1;
       sample.distance = std::numeric_limits<double>::infinity();
       for (const int s : candidates) look(sample.place, s, points, sample);
-      if (sample.side >= 0) samples_.push_back(nearest(sample, points));
+      sample.follows = stands_for == 0 && parameter > 0;
+      if (sample.side >= 0) samples_.push_back(sample);
     };
     for (int i = 0; i < pieces; ++i) add((i + 0.5) / pieces, length / pieces);
     // The ends, which are farthest from a chord, weigh nothing and are only watched; so are places between,
@@ -58,6 +60,7 @@ FitCurves::FitCurves(const SurfaceRef& surface, const FitMesh& mesh, const FitMa
     const int n = 1 + static_cast<int>(std::lround(std::clamp(wanted, 0.0, most_watched)));
     for (int i = 0; i <= n; ++i) add(static_cast<double>(i) / n, 0);
   }
+  match(points);
 }
 
 void FitCurves::look(const Vec3d& place, int side, const std::vector<Vec3d>& points, Sample& best) const {
@@ -84,8 +87,23 @@ FitCurves::Sample FitCurves::nearest(const Sample& sample, const std::vector<Vec
   return best;
 }
 
+// Between two places the distance from each side is convex, so that the farthest is where the nearest side
+// changes: before the vertex that the sides share.
+double FitCurves::farthest_between(Sample from, Sample to, const std::vector<Vec3d>& points) const {
+  for (int i = 0; i < halvings && from.side != to.side; ++i) {
+    Sample middle = from;
+    middle.place = 0.5 * (from.place + to.place);
+    middle = nearest(middle, points);
+    (middle.side == from.side ? from : to) = middle;
+  }
+  return std::max(from.distance, to.distance);
+}
+
 void FitCurves::match(const std::vector<Vec3d>& points) {
-  for (Sample& sample : samples_) sample = nearest(sample, points);
+  for (size_t i = 0; i < samples_.size(); ++i) {
+    Sample& sample = samples_[i] = nearest(samples_[i], points);
+    sample.farthest = sample.follows ? farthest_between(samples_[i - 1], sample, points) : sample.distance;
+  }
 }
 
 void FitCurves::add_terms(const std::vector<Vec3d>& points, double width, double total_area,
@@ -106,10 +124,13 @@ void FitCurves::add_terms(const std::vector<Vec3d>& points, double width, double
 }
 
 void FitCurves::mark_strays(const std::vector<Vec3d>& points, std::vector<char>& marked) const {
+  Sample before;
   for (const Sample& sample : samples_) {
     const Sample now = nearest(sample, points);
-    if (now.distance <= std::max(tolerance_, sample.distance)) continue;
-    for (const int s : {sample.side, now.side})
+    const Sample from = sample.follows ? before : now;
+    before = now;
+    if (farthest_between(from, now, points) <= std::max(tolerance_, sample.farthest)) continue;
+    for (const int s : {sample.side, now.side, from.side})
       for (const int v : {mesh_.sides[at(s)].from, mesh_.sides[at(s)].to}) marked[at(v)] = 1;
   }
 }

@@ -28,8 +28,11 @@ class FitCurves {
     double length = 0;
     int side = -1;  // of the result; -1: none is near
     double parameter = 0, distance = 0;
+    bool follows = false;  // the one before it, along the same edge
+    double farthest = 0;   // distance from there to here
   };
   void look(const Vec3d& place, int side, const std::vector<Vec3d>& points, Sample& best) const;
+  double farthest_between(Sample from, Sample to, const std::vector<Vec3d>& points) const;
   Sample nearest(const Sample& sample, const std::vector<Vec3d>& points) const;
   const std::vector<int>& sides_at(int vertex) const { return sides_at_[static_cast<size_t>(vertex)]; }
 

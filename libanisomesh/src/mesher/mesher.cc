@@ -68,8 +68,10 @@ double feature_tolerance_of(const SurfaceRef& surface, const MeshOptions& option
 // Polygons that would be folded, concave or without area are given other chances with more samples around
 // them.
 constexpr size_t max_retries = 8;
-constexpr size_t patience = 4;           // retries, before vertices are given up for sound polygons
-constexpr double cells_at_features = 5;  // times the tolerance of features
+constexpr size_t patience = 4;  // retries, before vertices are given up for sound polygons
+// Times the tolerance of features: how far cells beside them may be from the surface, where epsilon grows
+// since features alone are more than what is wanted, and what the judge takes for as far.
+constexpr double cells_at_features = 20, judged_at_features = 5;
 constexpr double tiny = 0.05;            // of epsilon: no edge need be as short
 constexpr double widest_merge = 0.0125;  // of the extent: chains that only bend within a share of infinity
 constexpr double around = 1.5;           // such a polygon: times its width
@@ -211,7 +213,7 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
   // On the surface nothing but the judge keeps a cell from being bridged, so that a large epsilon, as where
   // the features alone are more than the faces that are wanted, must not make that cheap.
   const bool planar = drawing->network().planar;
-  const double judged = planar ? epsilon : std::min(epsilon, cells_at_features * feature_tolerance);
+  const double judged = planar ? epsilon : std::min(epsilon, judged_at_features * feature_tolerance);
   const detail::PolygonJudge judge(
       surface, drawing->locator(), normals,
       {judged, planar ? 10.0 : 100.0, options.max_bend_degrees, options.alignment_weight});

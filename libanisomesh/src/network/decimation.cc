@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -54,6 +55,10 @@ class Decimator {
   size_t contract_short_edges();
   double continuation(int edge, int node) const;
   bool contract(int keep, int gone, int edge);
+  bool is_feature(int edge) const { return graph_.edge(edge).kind == static_cast<int>(EdgeKind::feature); }
+  std::vector<Vec3d> left_out_at(int edge) const;
+  bool stays_near(const std::vector<Vec3d>& samples, int a, int b) const;
+  void leave_out(const std::vector<Vec3d>& samples, int a, int b);
   bool touches(int node, EdgeKind kind) const;
   bool on_curve(int node) const {
     return touches(node, EdgeKind::border) || touches(node, EdgeKind::feature);
@@ -69,7 +74,26 @@ class Decimator {
   Embedding& embedding_;
   const DecimationOptions& options_;
   DecimationReport report_;
+  std::unordered_map<int, std::vector<Vec3d>> left_out_;  // of features, by the edge that stands for them
 };
+
+std::vector<Vec3d> Decimator::left_out_at(int edge) const {
+  const auto found = left_out_.find(edge);
+  return found == left_out_.end() ? std::vector<Vec3d>() : found->second;
+}
+
+// Whether an edge between two nodes is near enough to samples of a feature.
+bool Decimator::stays_near(const std::vector<Vec3d>& samples, int a, int b) const {
+  const Vec3d &p = network_.positions[at(a)], &q = network_.positions[at(b)];
+  return std::all_of(samples.begin(), samples.end(), [&](const Vec3d& sample) {
+    return !(off_segment(sample, p, q).norm() > options_.feature_tolerance);
+  });
+}
+
+void Decimator::leave_out(const std::vector<Vec3d>& samples, int a, int b) {
+  auto& all = left_out_[graph_.find_edge(a, b)];
+  all.insert(all.end(), samples.begin(), samples.end());
+}
 
 // Two edges of the same kind, and no reason of its own to be a vertex.
 bool Decimator::passes_through(int node) const {
@@ -166,12 +190,21 @@ void Decimator::order_chain(const std::vector<int>& chain, std::vector<std::pair
 bool Decimator::remove_from_chain(int node) {
   const int first = graph_.first_edge(node), second = graph_.next_edge(first, node);
   const int a = graph_.other(first, node), b = graph_.other(second, node);
-  if (a == b || graph_.find_edge(a, b) >= 0 || !embedding_.straighten(a, node, b)) return false;
+  if (a == b || graph_.find_edge(a, b) >= 0) return false;
+  std::vector<Vec3d> samples;
+  if (is_feature(first)) {
+    samples = left_out_at(first);
+    for (const Vec3d& sample : left_out_at(second)) samples.push_back(sample);
+    samples.push_back(network_.positions[at(node)]);
+    if (!stays_near(samples, a, b)) return false;
+  }
+  if (!embedding_.straighten(a, node, b)) return false;
   const auto& edge = graph_.edge(first);
   const int kind = edge.kind, tag = edge.tag;
   graph_.remove_edge(first);
   graph_.remove_edge(second);
   graph_.add_edge(a, b, kind, tag);
+  if (!samples.empty()) leave_out(samples, a, b);
   ++report_.straightened;
   return true;
 }
@@ -238,18 +271,21 @@ double Decimator::continuation(int edge, int node) const {
 bool Decimator::contract(int keep, int gone, int edge) {
   struct Moved {
     int edge, other;
+    std::vector<Vec3d> samples;  // of a feature: those that its edge is to stand for
   };
   std::vector<Moved> moved;
   visit_edges(gone, [&](int e) {
-    if (e != edge) moved.push_back({e, graph_.other(e, gone)});
+    if (e == edge) return;
+    moved.push_back({e, graph_.other(e, gone), {}});
+    if (!is_feature(e)) return;
+    auto& samples = moved.back().samples = left_out_at(e);
+    samples.push_back(network_.positions[at(gone)]);
+    if (is_feature(edge))
+      for (const Vec3d& sample : left_out_at(edge)) samples.push_back(sample);
   });
   std::vector<int> others;
   for (const Moved& m : moved) {
-    if (graph_.edge(m.edge).kind == static_cast<int>(EdgeKind::feature) &&
-        off_segment(network_.positions[at(gone)], network_.positions[at(keep)],
-                    network_.positions[at(m.other)])
-                .norm() > options_.feature_tolerance)
-      return false;
+    if (!stays_near(m.samples, keep, m.other)) return false;
     const int twin = graph_.find_edge(keep, m.other);
     if (twin >= 0 && !is_line(graph_.edge(twin).kind) && !is_line(graph_.edge(m.edge).kind)) return false;
     others.push_back(m.other);
@@ -265,6 +301,7 @@ bool Decimator::contract(int keep, int gone, int edge) {
       graph_.add_edge(keep, m.other, kind, tag);
     else if (graph_.edge(twin).kind < kind)
       graph_.set_kind(twin, kind, tag);
+    if (!m.samples.empty()) leave_out(m.samples, keep, m.other);
   }
   graph_.remove_edge(edge);
   ++report_.merged;
