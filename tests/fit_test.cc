@@ -4,9 +4,11 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <limits>
 
 #include "anisomesh/compare.hh"
 #include "anisomesh/io.hh"
+#include "anisomesh/max_error.hh"
 #include "anisomesh/properties.hh"
 #include "catch.hh"
 #include "data.hh"
@@ -127,6 +129,20 @@ TEST_CASE("the fit refuses what it was not made for, and a cancel leaves the res
   PolyMesh bare;
   bare.add_face(bare.add_vertex({0, 0, 0}), bare.add_vertex({1, 0, 0}), bare.add_vertex({0, 1, 0}));
   CHECK_THROWS_AS(fit_vertices(mesh, bare), InvalidInput);
+  CHECK_THROWS_AS(fit_vertices(mesh, bare = PolyMesh()), InvalidInput);
+  auto broken = result;
+  broken.set_point(OpenMesh::VertexHandle(5), {std::numeric_limits<double>::quiet_NaN(), 0, 0});
+  CHECK_THROWS_WITH(fit_vertices(mesh, broken), Catch::Contains("vertex 5 of the result"));
+  CHECK_THROWS_WITH(balance_vertices(mesh, broken), Catch::Contains("vertex 5 of the result"));
+  broken = result;
+  broken.request_vertex_status();
+  broken.request_face_status();
+  broken.delete_face(OpenMesh::FaceHandle(0));
+  MaxErrorOptions bound;
+  bound.max_error_fraction = 0.01;
+  CHECK_THROWS_WITH(fit_vertices(mesh, broken), Catch::Contains("garbage_collection"));
+  CHECK_THROWS_WITH(balance_vertices(mesh, broken), Catch::Contains("garbage_collection"));
+  CHECK_THROWS_WITH(bound_error(mesh, broken, bound), Catch::Contains("garbage_collection"));
   const auto before = points_of(result);
   CHECK_THROWS_AS(fit_vertices(mesh, result, {}, [](double done) { return done < 0.1; }), Cancelled);
   CHECK(points_of(result) == before);

@@ -115,4 +115,10 @@ TEST_CASE("a border is a B-spline, and what build_polygons() calls a corner stay
   for (const auto v : fine.vertices()) CHECK(fine.point(v)[2] == 0);
   CHECK_THROWS_AS(subdivide(mesh, 9), InvalidOption);
   CHECK_THROWS_AS(subdivide(OpenMesh::PolyMesh(), 1), InvalidInput);
+  CHECK_THROWS_AS(subdivide(grid(60, false), 8), InvalidOption);  // 200,000,000 faces
+  mesh.request_vertex_status();
+  mesh.request_edge_status();
+  mesh.request_face_status();
+  mesh.delete_face(OpenMesh::FaceHandle(0));
+  CHECK_THROWS_WITH(subdivide(mesh, 1), Catch::Contains("garbage_collection"));
 }

@@ -16,6 +16,7 @@
 #include "remesh/epsilon_search.hh"
 #include "surface/canonical_copy.hh"
 #include "surface/recorded.hh"
+#include "surface/unfit_mesh.hh"
 
 namespace anisomesh {
 
@@ -182,6 +183,7 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
   const auto start = std::chrono::steady_clock::now();
   options.validate();
   fit_options.validate();
+  detail::refuse_unfit_result(result);
   Balance balance(surface, result, options, fit_options);
   BalanceReport& report = balance.report();
   OpenMesh::PolyMesh fitted;

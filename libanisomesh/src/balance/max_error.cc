@@ -12,6 +12,7 @@
 #include "compare/compare_parts.hh"
 #include "numerics/hausdorff.hh"
 #include "surface/canonical_copy.hh"
+#include "surface/unfit_mesh.hh"
 
 namespace anisomesh {
 
@@ -128,7 +129,9 @@ MaxErrorReport bound_error(const SurfaceRef& surface, OpenMesh::PolyMesh& result
   options.validate();
   balance.validate();
   fit.validate();
-  if (!(options.max_error_fraction > 0)) throw InvalidOption("bound_error() needs a bound above 0");
+  if (!(options.max_error_fraction > 0))
+    throw InvalidOption("max_error_fraction must be above 0 for bound_error()");
+  detail::refuse_unfit_result(result);
   const double limit = options.max_error_fraction * surface.diagonal();
   const Reference reference(surface);
   const detail::FitInput input(surface);

@@ -1,34 +1,15 @@
 #include "anisomesh/compare.hh"
 
 #include <chrono>
-#include <cmath>
 #include <string>
 
 #include "anisomesh/properties.hh"
 #include "compare/compare_parts.hh"
+#include "surface/unfit_mesh.hh"
 
 namespace anisomesh {
 
 namespace {
-
-void refuse_unfit(const SurfaceRef& reference, const OpenMesh::PolyMesh& result) {
-  if (!(reference.diagonal() > 0)) throw InvalidInput("the reference has no extent");
-  if (result.n_faces() == 0) throw InvalidInput("the result has no faces");
-  for (const auto vertex : result.all_vertices()) {
-    if (result.has_vertex_status() && result.status(vertex).deleted())
-      throw InvalidInput("the result has deleted elements (vertex " + std::to_string(vertex.idx()) +
-                         " is one); call garbage_collection() first");
-    for (const double x : result.point(vertex))
-      if (!std::isfinite(x))
-        throw InvalidInput("vertex " + std::to_string(vertex.idx()) +
-                           " of the result has a coordinate that is not finite");
-  }
-  if (result.has_face_status())
-    for (const auto face : result.all_faces())
-      if (result.status(face).deleted())
-        throw InvalidInput("the result has deleted elements (face " + std::to_string(face.idx()) +
-                           " is one); call garbage_collection() first");
-}
 
 std::vector<detail::Triangle> triangles_of(const SurfaceRef& surface) {
   std::vector<detail::Triangle> triangles;
@@ -94,7 +75,7 @@ Comparison compare(const SurfaceRef& reference, OpenMesh::PolyMesh& result, cons
                    const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   options.validate();
-  refuse_unfit(reference, result);
+  detail::refuse_unfit_result(result);
   const detail::ReferenceSurface surface(reference);
   const detail::PolygonSoup soup(result, options.diagonal);
 

@@ -7,15 +7,21 @@
 #include "anisomesh/errors.hh"
 #include "fit/fit_state.hh"
 #include "surface/canonical_copy.hh"
+#include "surface/unfit_mesh.hh"
 
 namespace anisomesh {
 
 void FitOptions::validate() const {
   if (passes < 1) throw InvalidOption("fit.passes must be at least 1, but is " + std::to_string(passes));
-  if (!(normal_weight >= 0)) throw InvalidOption("fit.normal_weight must not be negative");
-  if (!(planarity_weight >= 0)) throw InvalidOption("fit.planarity_weight must not be negative");
-  if (!(alignment_weight >= 0)) throw InvalidOption("fit.alignment_weight must not be negative");
-  if (!(damping > 0)) throw InvalidOption("fit.damping must be above 0");
+  const auto require = [](bool good, const char* name, const char* range, double value) {
+    if (!good || !std::isfinite(value))
+      throw InvalidOption(std::string("fit.") + name + " must be finite and " + range + ", but is " +
+                          std::to_string(value));
+  };
+  require(normal_weight >= 0, "normal_weight", "not negative", normal_weight);
+  require(planarity_weight >= 0, "planarity_weight", "not negative", planarity_weight);
+  require(alignment_weight >= 0, "alignment_weight", "not negative", alignment_weight);
+  require(damping > 0, "damping", "above 0", damping);
 }
 
 FitReport fit_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& result, const FitOptions& options,
@@ -27,6 +33,7 @@ FitReport fit_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& result, co
                                              });
   const auto start = std::chrono::steady_clock::now();
   options.validate();
+  detail::refuse_unfit_result(result);
   const detail::FitInput input(surface);
   detail::FitState fit(surface, input, result, options);
   const std::vector<Vec3d> original = fit.points();

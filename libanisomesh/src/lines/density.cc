@@ -21,12 +21,12 @@ void require(bool fine, const char* option, const char* range, double value) {
 
 void DensityOptions::validate() const {
   require(std::isfinite(epsilon_fraction) && epsilon_fraction >= 0, "epsilon_fraction",
-          "above 0, or 0 for the default", epsilon_fraction);
+          "finite and above 0, or 0 for the default", epsilon_fraction);
   require(rho >= 0 && rho <= 1, "rho", "in [0, 1]", rho);
   require(adaptation >= 0 && adaptation <= 1, "adaptation", "in [0, 1]", adaptation);
-  require(std::isfinite(max_spacing_fraction) && max_spacing_fraction > 0, "max_spacing_fraction", "above 0",
-          max_spacing_fraction);
-  require(std::isfinite(max_slope) && max_slope > 0, "max_slope", "above 0", max_slope);
+  require(std::isfinite(max_spacing_fraction) && max_spacing_fraction > 0, "max_spacing_fraction",
+          "finite and above 0", max_spacing_fraction);
+  require(std::isfinite(max_slope) && max_slope > 0, "max_slope", "finite and above 0", max_slope);
 }
 
 double DensityOptions::epsilon(double diagonal, double extent) const {

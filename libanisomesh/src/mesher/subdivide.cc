@@ -1,11 +1,13 @@
 #include "anisomesh/subdivide.hh"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "anisomesh/errors.hh"
 #include "anisomesh/mesher.hh"
 #include "anisomesh/properties.hh"
+#include "surface/unfit_mesh.hh"
 
 namespace anisomesh {
 
@@ -93,6 +95,14 @@ void smooth(Level& level) {
   for (const auto v : level.mesh.vertices()) level.mesh.set_point(v, points[at(v.idx())]);
 }
 
+constexpr double most_faces = 1e8;  // OpenMesh counts sides, four times as many, in an int
+
+double faces_after(const PolyMesh& mesh, int levels) {
+  double faces = 0;  // after the first level
+  for (const auto f : mesh.faces()) faces += mesh.valence(f) == 3 ? 4 : mesh.valence(f);
+  return levels == 0 ? static_cast<double>(mesh.n_faces()) : faces * std::pow(4.0, levels - 1);
+}
+
 std::vector<char> corners(const PolyMesh& mesh) {
   std::vector<char> fixed(mesh.n_vertices(), 0);
   if (!has_property(mesh, property::origin)) return fixed;
@@ -108,6 +118,10 @@ PolyMesh subdivide(const PolyMesh& mesh, int levels) {
   if (levels < 0 || levels > 8)
     throw InvalidOption("levels must be from 0 to 8, but is " + std::to_string(levels));
   if (mesh.n_faces() == 0) throw InvalidInput("the mesh has no faces");
+  detail::refuse_deleted_elements(mesh, "the mesh");
+  if (faces_after(mesh, levels) > most_faces)
+    throw InvalidOption("levels must be fewer than " + std::to_string(levels) + " for a mesh of " +
+                        std::to_string(mesh.n_faces()) + " faces: 100,000,000 are the most that are made");
   Level level{mesh, corners(mesh)};
   for (int i = 0; i < levels; ++i) {
     level = divided(level);

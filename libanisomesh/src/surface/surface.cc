@@ -7,6 +7,7 @@
 
 #include "anisomesh/errors.hh"
 #include "numerics/enclosing_sphere.hh"
+#include "surface/unfit_mesh.hh"
 
 namespace anisomesh {
 
@@ -16,19 +17,6 @@ std::string scientific(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
-}
-
-void refuse_deleted_elements(const OpenMesh::TriConnectivity& mesh) {
-  const auto refuse = [](const char* element, int index) {
-    throw InvalidInput(std::string("the mesh has deleted elements (") + element + " " +
-                       std::to_string(index) + " is one); call garbage_collection() first");
-  };
-  if (mesh.has_vertex_status())
-    for (const auto v : mesh.all_vertices())
-      if (mesh.status(v).deleted()) refuse("vertex", v.idx());
-  if (mesh.has_face_status())
-    for (const auto f : mesh.all_faces())
-      if (mesh.status(f).deleted()) refuse("face", f.idx());
 }
 
 // Beyond these, products of four lengths cannot be told from 0, or from infinity.
@@ -46,7 +34,7 @@ void refuse_extent(double diagonal) {
 
 SurfaceRef::SurfaceRef(OpenMesh::TriConnectivity& connectivity, std::vector<Vec3d> points)
     : connectivity_(&connectivity), points_(std::move(points)) {
-  refuse_deleted_elements(connectivity);
+  detail::refuse_deleted_elements(connectivity, "the mesh");
   if (connectivity.n_faces() == 0) throw InvalidInput("the mesh has no faces");
   Vec3d low = points_.front(), high = points_.front();
   for (size_t i = 0; i < points_.size(); ++i) {
