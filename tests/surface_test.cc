@@ -3,7 +3,13 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <limits>
 
+#include "anisomesh/compare.hh"
+#include "anisomesh/curvature.hh"
 #include "anisomesh/errors.hh"
+#include "anisomesh/features.hh"
+#include "anisomesh/holes.hh"
+#include "anisomesh/refine.hh"
+#include "anisomesh/shapes.hh"
 #include "catch.hh"
 
 using namespace anisomesh;
@@ -37,6 +43,22 @@ TEST_CASE("barycentric coordinates refer to the corners in the order of the circ
   const auto face = OpenMesh::FaceHandle(0);
   int i = 0;
   for (const auto vertex : mesh.fv_range(face)) CHECK(surface.corners(face).vertex[i++] == vertex);
+}
+
+TEST_CASE("a view of a mesh that has changed since is refused", "[surface]") {
+  auto mesh = make_shape("dome", {100});
+  auto result = OpenMesh::PolyMesh();
+  result.add_face(result.add_vertex({0, 0, 0}), result.add_vertex({1, 0, 0}), result.add_vertex({0, 1, 0}));
+  const SurfaceRef surface = mesh;
+  SECTION("more vertices") {
+    mesh.split(OpenMesh::FaceHandle(0), mesh.calc_face_centroid(OpenMesh::FaceHandle(0)));
+  }
+  SECTION("deleted faces") { mesh.delete_face(OpenMesh::FaceHandle(0)); }
+  CHECK_THROWS_AS(tag_features(surface), InvalidInput);
+  CHECK_THROWS_AS(fill_holes(surface, {}), InvalidInput);
+  CHECK_THROWS_AS(refine(surface), InvalidInput);
+  CHECK_THROWS_AS(estimate_curvature(surface), InvalidInput);
+  CHECK_THROWS_AS(compare(surface, result), InvalidInput);
 }
 
 TEST_CASE("meshes that no stage can read are refused", "[surface]") {

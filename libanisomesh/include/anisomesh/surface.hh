@@ -20,9 +20,9 @@ class CanonicalCopy;
 /// in double.
 ///
 /// Any mesh that derives from OpenMesh::TriConnectivity fits. Properties are read from and written to the
-/// mesh itself. The mesh must outlive the view; after points of the mesh are moved, make a new view. \throw
-/// InvalidInput if the mesh has no faces, has deleted elements or a point that is not
-/// finite, or is smaller than 1e-60 or larger than 1e60 (its diagonal).
+/// mesh itself. The mesh must outlive the view; after points of the mesh are moved, or elements added or
+/// deleted, make a new view. \throw InvalidInput if the mesh has no faces, has deleted elements or a point
+/// that is not finite, or is smaller than 1e-60 or larger than 1e60 (its diagonal).
 class SurfaceRef {
  public:
   template <class TriMesh, class = std::enable_if_t<std::is_base_of_v<OpenMesh::TriConnectivity, TriMesh>>>

@@ -76,7 +76,7 @@ Comparison compare(const SurfaceRef& reference, OpenMesh::PolyMesh& result, cons
   const auto start = std::chrono::steady_clock::now();
   options.validate();
   detail::refuse_unfit_result(result);
-  const detail::ReferenceSurface surface(reference);
+  const detail::ReferenceSurface surface(detail::unchanged(reference));
   const detail::PolygonSoup soup(result, options.diagonal);
 
   Comparison comparison;

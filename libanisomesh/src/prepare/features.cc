@@ -8,6 +8,7 @@
 #include "anisomesh/errors.hh"
 #include "anisomesh/properties.hh"
 #include "prepare/feature_tolerance.hh"
+#include "surface/unfit_mesh.hh"
 
 namespace anisomesh {
 
@@ -213,7 +214,7 @@ std::vector<double> measure_turns(const SurfaceRef& surface, FeatureReport& repo
 FeatureReport tag_features(const SurfaceRef& surface, const FeatureOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   options.validate();
-  auto& mesh = surface.connectivity();
+  auto& mesh = detail::unchanged(surface).connectivity();
   FeatureReport report;
   std::vector<char> tagged(mesh.n_edges(), 0);
   if (options.keep_existing && mesh.has_edge_status())

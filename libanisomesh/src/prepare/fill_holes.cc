@@ -10,6 +10,7 @@
 #include "numerics/disjoint_sets.hh"
 #include "numerics/hole_triangulation.hh"
 #include "surface/cut_surface.hh"
+#include "surface/unfit_mesh.hh"
 
 namespace anisomesh {
 
@@ -312,7 +313,7 @@ void FillOptions::validate() const {
 OpenMesh::TriMesh fill_holes(const SurfaceRef& surface, const FillOptions& options, FillReport* report) {
   const auto start = std::chrono::steady_clock::now();
   options.validate();
-  HoleFiller filler(surface, options.max_edges);
+  HoleFiller filler(detail::unchanged(surface), options.max_edges);
   if (options.max_edges > 0) filler.run();
   FillReport done;
   OpenMesh::TriMesh mesh = filler.result(done);

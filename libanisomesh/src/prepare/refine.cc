@@ -10,6 +10,7 @@
 #include "anisomesh/properties.hh"
 #include "surface/canonical_order.hh"
 #include "surface/rounding.hh"
+#include "surface/unfit_mesh.hh"
 
 namespace anisomesh {
 
@@ -186,7 +187,7 @@ void RefineOptions::validate() const {
 TriMesh refine(const SurfaceRef& surface, const RefineOptions& options, RefineReport* report) {
   const auto start = std::chrono::steady_clock::now();
   options.validate();
-  Refiner refiner(surface, options);
+  Refiner refiner(detail::unchanged(surface), options);
   if (options.max_edge_fraction > 0)
     while (refiner.round()) {
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "anisomesh/properties.hh"
+#include "surface/unfit_mesh.hh"
 
 namespace anisomesh::detail {
 
@@ -47,7 +48,7 @@ class PropertyCopier {
 }  // namespace
 
 CanonicalCopy::CanonicalCopy(const SurfaceRef& given)
-    : given_(given), order_(canonical_order(given)), copy_(given) {
+    : given_(unchanged(given)), order_(canonical_order(given)), copy_(given) {
   make_connectivity();
   map_faces();
   copy_properties(given.connectivity(), connectivity_, false);

@@ -19,6 +19,16 @@ void refuse_deleted_elements(const OpenMesh::PolyConnectivity& mesh, const std::
       if (mesh.status(f).deleted()) refuse("face", f.idx());
 }
 
+const SurfaceRef& unchanged(const SurfaceRef& surface) {
+  const auto& mesh = surface.connectivity();
+  refuse_deleted_elements(mesh, "the mesh");
+  if (mesh.n_vertices() != surface.points().size())
+    throw InvalidInput("the mesh had " + std::to_string(surface.points().size()) +
+                       " vertices when the SurfaceRef was made and has " + std::to_string(mesh.n_vertices()) +
+                       " now; make a new one");
+  return surface;
+}
+
 void refuse_unfit_result(const OpenMesh::PolyMesh& result) {
   refuse_deleted_elements(result, "the result");
   if (result.n_faces() == 0) throw InvalidInput("the result has no faces");
