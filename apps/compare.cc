@@ -34,7 +34,9 @@ int main(int argc, char* argv[]) {
   ReadOptions reading;
   CompareOptions options;
   CurvatureOptions curvature;
-  command.input(reference_path, "reference", "The surface: .obj, .off, .ply, .stl or .om");
+  command.input(
+      reference_path, "reference",
+      "The surface: .obj, .off, .ply, .stl or .om; curvature that an .om brings along is used as it is");
   command.input(result_path, "result", "The result: .obj, .off, .ply, .stl or .om");
   command.optional_output(
       map_path,
@@ -75,7 +77,10 @@ int main(int argc, char* argv[]) {
       estimate_curvature(surface, curvature, command.progress("curvature"));
     const Comparison comparison = compare(surface, result, options, command.progress("comparing"));
     command.stop_if_cancelled();
-    if (!map_path.empty()) write_mesh(result, map_path);
+    if (!map_path.empty()) {
+      write_mesh(result, map_path);
+      command.warn_unless_om(map_path, "result", "the error map");
+    }
     command.report().update(apps::to_json(comparison));
     say_all(command, comparison);
   });

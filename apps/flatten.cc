@@ -24,6 +24,7 @@ int main(int argc, char* argv[]) {
   return command.run(argc, argv, [&] {
     charts.validate();
     smoothing.validate();
+    apps::warn_of_charts(command, domain);
     auto mesh = apps::read_surface(command, input);
     const anisomesh::SurfaceRef surface = mesh;
     const auto chosen = anisomesh::choose_domain(surface, domain, charts, command.progress("flattening"));
@@ -31,7 +32,7 @@ int main(int argc, char* argv[]) {
     const auto umbilics = anisomesh::find_umbilics(surface);
     command.stop_if_cancelled();
     anisomesh::write_mesh(mesh, output);
-    command.warn_unless_om(output);
+    command.warn_unless_om(output, "surface", "what this stage has found, for the next one");
     apps::add_json(command.report(), chosen);
     command.report()["smoothing"] = apps::to_json(smooth);
     command.report()["umbilics"] = apps::to_json(umbilics);

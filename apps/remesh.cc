@@ -99,7 +99,14 @@ int main(int argc, char* argv[]) {
     fill.validate();
     refine.options.validate();
     options.validate();  // before a long file is read
+    view::require_ending(page, {".html", ".htm"});
     if (!page.empty()) view::require_page(page);
+    apps::warn_of_charts(command, options.domain);
+    apps::warn_of_epsilon(command, options);
+    if (options.max_error.max_error_fraction > 0)
+      command.warn_of_unused({"--epsilon"}, "beside --max-error, which finds its own");
+    else if (!options.fit.enabled)
+      command.warn_of_unused({"--fit-passes", "--balance"}, "with --no-fit");
     anisomesh::ReadReport read;
     auto mesh = apps::read_surface(command, input, &read, reading);
     apps::fill_holes(command, mesh, read, fill);

@@ -31,6 +31,7 @@ int main(int argc, char* argv[]) {
 
   return command.run(argc, argv, [&] {
     polygons.validate();
+    apps::warn_of_epsilon(command, target);
     auto mesh = apps::read_surface(command, input);
     const anisomesh::SurfaceRef surface = mesh;
     trace.density.epsilon_fraction = apps::resolve(epsilon, surface);
@@ -42,14 +43,15 @@ int main(int argc, char* argv[]) {
       report.trace = anisomesh::trace_lines(surface, trace, command.progress("tracing"));
       report.isotropic =
           anisomesh::place_isotropic_samples(surface, trace, command.progress("isotropic samples"));
-      report.epsilon_fraction = trace.density.epsilon_fraction;
+      report.epsilon_fraction =
+          trace.density.epsilon(surface.diagonal(), surface.extent()) / surface.diagonal();
       command.report()["epsilon_fraction"] = report.epsilon_fraction;
       command.report()["trace"] = apps::to_json(report.trace);
       command.report()["isotropic"] = apps::to_json(report.isotropic);
     }
     command.stop_if_cancelled();
     anisomesh::write_mesh(mesh, output);
-    command.warn_unless_om(output);
+    command.warn_unless_om(output, "surface", "what this stage has found, for the next one");
     command.report()["output"] = output;
     command.say(output + ": " + std::to_string(report.trace.min_lines) + " min lines, " +
                 std::to_string(report.trace.max_lines) + " max lines, " +

@@ -126,6 +126,9 @@ bool asks_for(const Arguments& a, const char* layer) {
 void check(const Arguments& a) {
   if (a.page.empty() && a.png.empty() && a.svg.empty())
     throw InvalidOption("nothing to write: give -o PAGE.html, --png PICTURE.png or --svg DRAWING.svg");
+  view::require_ending(a.page, {".html", ".htm"});
+  view::require_ending(a.png, {".png"});
+  view::require_ending(a.svg, {".svg"});
   for (const auto& path : {a.page, a.png})
     if (!path.empty()) view::require_page(path);
   if (!a.svg.empty()) require_writable(a.svg);

@@ -3,8 +3,10 @@
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
+#include <cctype>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -49,6 +51,12 @@ std::string in_words_of_apps(std::string message) {
       {"run smooth_tensors()", "run anisomesh-flatten"},
       {"run find_umbilics()", "run anisomesh-flatten"},
       {"run trace_lines()", "run anisomesh-trace"},
+      {"run cut_into_charts() first", "bring one, or leave --keep-charts out"},
+      {"rho must", "--rho must"},
+      {"adaptation must", "--adaptation must"},
+      {"samples must", "--samples must"},
+      {"anisotropy_threshold", "--anisotropy"},
+      {"levels must", "--levels must"},
       {"target_faces", "--target-faces"},
       {"target_vertices", "--target-vertices"},
       {"epsilon_fraction", "--epsilon"},
@@ -167,6 +175,7 @@ int Command::work_and_report(const std::function<void()>& work) {
     // What cannot end well does not begin.
     if (output_ && !output_->empty()) require_writable_mesh(*output_);
     if (!json_path_.empty() && json_path_ != "-") require_writable(json_path_);
+    refuse_one_file_for_two();
     work();
     if (!json_path_.empty()) {
       (*report_)["options"] = options();
@@ -180,10 +189,11 @@ int Command::work_and_report(const std::function<void()>& work) {
     if (!std::cout.flush()) return fail(exit_bad_input, "the standard output cannot be written");
     return failure_.empty() ? exit_done : fail(exit_cannot, failure_, true);
   } catch (const Cancelled&) {
-    return fail(stop_signal == SIGTERM ? 128 + SIGTERM : exit_cancelled, "cancelled; nothing was written");
+    return fail_cancelled();
   } catch (const InvalidOption& error) {
     return fail(exit_usage, error.what());
   } catch (const InvalidInput& error) {
+    if (cancelled()) return fail_cancelled();  // while a pipe was waited for
     return fail(exit_bad_input, error.what(), true);
   } catch (const CannotProcess& error) {
     return fail(exit_cannot, error.what(), true);
@@ -197,12 +207,31 @@ int Command::work_and_report(const std::function<void()>& work) {
 }
 
 int Command::fail(int code, const std::string& message, bool about_input) const {
-  const bool names_input = about_input && input_ && !names_a_file(message);
+  const bool names_input = about_input && input_ && !input_->empty() && !names_a_file(message);
   const bool of_library = code == exit_usage || message.find("() first") != std::string::npos;
   const std::string line = one_line(message);
   std::cerr << name_ << ": " << (names_input ? *input_ + ": " : "")
             << (of_library ? in_words_of_apps(line) : line) << "\n";
   return code;
+}
+
+int Command::fail_cancelled() const {
+  return fail(stop_signal == SIGTERM ? 128 + SIGTERM : exit_cancelled, "cancelled; nothing was written");
+}
+
+/// The report would take the place of what was written before it.
+void Command::refuse_one_file_for_two() const {
+  std::error_code none;
+  const auto place = [&](const std::string& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, none), none);
+  };
+  for (const char* name : {"--output", "--report", "--png", "--svg"}) {
+    const auto* option = app_->get_option_no_throw(name);
+    if (!option || option->count() == 0 || json_path_.empty() || json_path_ == "-") continue;
+    const std::string other = option->as<std::string>();
+    if (place(other) == place(json_path_) && !std::filesystem::is_other(other, none))
+      throw anisomesh::InvalidOption(std::string("--json and ") + name + " name the same file, " + other);
+  }
 }
 
 /// Whether the message is about a file that was given.
@@ -243,9 +272,16 @@ void Command::say(const std::string& line) const {
   if (!quiet_ && json_path_ != "-") std::cout << line << "\n";
 }
 
-void Command::warn_unless_om(const std::string& path) const {
-  if (path.size() < 3 || path.compare(path.size() - 3, 3, ".om") != 0)
-    warn(path + " holds the bare surface: only .om keeps what this stage has found, for the next one");
+void Command::warn_unless_om(const std::string& path, const std::string& what,
+                             const std::string& lost) const {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending != ".om") warn(path + " holds the bare " + what + ": only .om keeps " + lost);
+}
+
+void Command::warn_of_unused(const std::vector<std::string>& options, const std::string& why) const {
+  for (const auto& name : options)
+    if (app_->get_option(name)->count() > 0) warn(name + " changes nothing " + why);
 }
 
 void Command::warn(const std::string& line) const {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "anisomesh/progress.hh"
 
@@ -59,16 +60,20 @@ class Command {
   void fail_at_end(const std::string& message) { failure_ = message; }
   /// A line on stderr, unless --quiet.
   void warn(const std::string& line) const;
-  /// Warns that a stage's results are lost with this ending.
-  void warn_unless_om(const std::string& path) const;
+  /// Warns that only .om keeps properties. \param what the file has otherwise
+  void warn_unless_om(const std::string& path, const std::string& what, const std::string& lost) const;
+  /// Warns of options that were given where they change nothing.
+  void warn_of_unused(const std::vector<std::string>& options, const std::string& why) const;
   /// What --json writes.
   Json& report() { return *report_; }
 
  private:
   void add_general_options();
   int work_and_report(const std::function<void()>& work);
+  int fail_cancelled() const;
   int fail(int code, const std::string& message, bool about_input = false) const;
   bool names_a_file(const std::string& message) const;
+  void refuse_one_file_for_two() const;
 
   std::string name_;
   std::unique_ptr<CLI::App> app_;

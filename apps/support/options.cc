@@ -87,6 +87,17 @@ void add_feature_options(Command& command, FeatureFlags& flags) {
       ->group("Features");
 }
 
+void warn_of_charts(const Command& command, Domain domain) {
+  if (domain != Domain::charts)
+    command.warn_of_unused({"--keep-charts", "--max-area-stretch", "--crease-weight"},
+                           "without --domain charts");
+}
+
+void warn_of_epsilon(const Command& command, const TargetOptions& target) {
+  if (target.target_faces > 0 || target.target_vertices > 0)
+    command.warn_of_unused({"--epsilon"}, "beside a target, which finds its own");
+}
+
 void tell_of_features(Command& command, const FeatureReport& report) {
   if (report.automatic)
     command.say("  " + std::to_string(report.feature_edges) +
@@ -276,7 +287,8 @@ void add_mesh_options(Command& command, MeshOptions& options, const std::string&
 void add_fit_options(Command& command, FitOptions& fit, BalanceOptions& balance) {
   CLI::App& app = command.arguments();
   app.add_flag("--fit,!--no-fit", fit.enabled,
-               "Move the vertices off the surface to where the error is least; --no-fit: they stay on it")
+               "Move the vertices off the surface to where the error is least; on by default; --no-fit: they "
+               "stay on it")
       ->group("Fit");
   app.add_option("--fit-passes", fit.passes, "Matched and solved at most so often, >= 1")
       ->type_name("N")

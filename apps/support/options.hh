@@ -51,6 +51,10 @@ void add_fit_options(Command& command, anisomesh::FitOptions& fit, anisomesh::Ba
 /// --max-error.
 void add_max_error_option(Command& command, anisomesh::MaxErrorOptions& options);
 
+/// Warns where options of charts were given and none will be cut.
+void warn_of_charts(const Command& command, anisomesh::Domain domain);
+/// Warns where epsilon was given and is looked for, too.
+void warn_of_epsilon(const Command& command, const anisomesh::TargetOptions& target);
 /// Says so where features were found that nobody asked for.
 void tell_of_features(Command& command, const anisomesh::FeatureReport& report);
 /// Reads --feature-file; its vertices are those of the file, before anything was dropped on reading.

@@ -1,7 +1,10 @@
 #include "view/page.hh"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -50,6 +53,13 @@ bool read_point(const std::string& text, std::array<double, 3>& point) {
 }  // namespace
 
 bool have_page() { return !page_template().empty(); }
+
+void require_ending(const std::string& path, const std::vector<std::string>& endings) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending.empty() || std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
+  throw anisomesh::InvalidInput(path + ": unknown ending '" + ending + "'; use " + endings.front());
+}
 
 void require_page(const std::string& path) {
   if (!have_page()) make_page("", {}, {}, {});

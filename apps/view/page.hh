@@ -35,6 +35,10 @@ bool have_page();
 /// without have_page(), anisomesh::InvalidInput
 void require_page(const std::string& path);
 
+/// Refuses to write into a file that the name calls something else, a mesh for instance; a name without an
+/// ending calls it nothing. \throw anisomesh::InvalidInput
+void require_ending(const std::string& path, const std::vector<std::string>& endings);
+
 /// The page as HTML: nothing in it is fetched. \throw anisomesh::CannotProcess without have_page()
 std::string make_page(const std::string& title, const Frame& frame, const std::vector<Model>& models,
                       const std::vector<Table>& tables, const Scene& scene = {});

@@ -134,7 +134,21 @@ usage)
   expect 2 "ten" anisomesh-remesh dome.off -o x.obj --smoothing ten
   expect 2 "normal-cycle" anisomesh-remesh dome.off -o x.obj --estimator guess
   expect 2 "octa-flower" anisomesh-shapes nonagon -o x.obj
+  expect 2 "--rho must be" anisomesh-remesh dome.off -o x.obj --rho 2
+  expect 2 "--samples must be" anisomesh-compare dome.off dome.off --samples 5
+  expect 2 "--levels must be" anisomesh-subdivide dome.off -o x.obj --levels 9
+  expect 2 "--json and --output name the same file" anisomesh-remesh dome.off -o x.obj --json ./x.obj
+  expect 3 "or leave --keep-charts out" anisomesh-remesh dome.off -o x.obj --domain charts --keep-charts
   [ ! -e x.obj ] || fail "a run that failed wrote its result"
+  expect 3 "unknown ending '.off'; use .html" anisomesh-remesh dome.off -o y.obj --report dome.off
+  # options that change nothing
+  expect 0 "--epsilon changes nothing" anisomesh-remesh dome.off -o x.obj --epsilon 0.01 --target-faces 300
+  expect 0 "--keep-charts changes nothing" anisomesh-remesh dome.off -o x.obj --keep-charts
+  expect 0 "--balance changes nothing" anisomesh-remesh dome.off -o x.obj --no-fit --balance 3
+  # only .om keeps what was found, whatever its case
+  expect 0 "" anisomesh-estimate dome.off -o dome.OM
+  expect 0 "only .om keeps" anisomesh-estimate dome.off -o bare.obj
+  expect 0 "only .om keeps" anisomesh-compare dome.off x.obj -o map.obj --samples 1000
   ;;
 
 any_surface)
@@ -226,6 +240,7 @@ bad_output)
   anisomesh-shapes -q dome --vertices 100 -o dome.off
   expect 3 ".obj, .off, .ply or .om" anisomesh-remesh dome.off -o here/out
   expect 3 ".obj, .off, .ply or .om" anisomesh-remesh dome.off -o here/out.stl
+  expect 3 "the name of a file is empty" anisomesh-remesh dome.off -o ""
   expect 3 "here/no/out.obj" anisomesh-remesh dome.off -o here/no/out.obj
   mkdir here/folder.obj
   expect 3 "directory" anisomesh-remesh dome.off -o here/folder.obj
@@ -269,6 +284,10 @@ report)
   done
   [ "$(head -c 1 out.txt)" = "{" ] || fail "more than JSON on stdout"
   expect 0 "" anisomesh-compare cylinder.obj out.om -o map.om --json - --samples 2000
+  anisomesh-estimate -q cylinder.obj -o 1.om
+  anisomesh-flatten -q 1.om -o 2.om
+  anisomesh-trace -q 2.om -o 3.om --json trace.json
+  awk '$1 == "\"epsilon_fraction\":" { exit !($2 > 0.0005) }' trace.json || fail "the report does not know the epsilon"
   for key in two_sided hausdorff folded_faces mean_alignment_degrees same_topology; do
     grep -q "\"$key\"" out.txt || fail "no $key in the comparison"
   done

@@ -85,7 +85,7 @@ struct IsotropicReport {
 
 /// Chooses isotropic samples among the umbilics by spacing, and adds random ones where flat or spherical
 /// regions stay empty. [ACDLD03, section 3.2] Reads: as trace_lines(), and the lines. Writes: isotropic
-/// samples (write_lines()).
+/// samples (write_lines()). \throw as trace_lines()
 IsotropicReport place_isotropic_samples(const SurfaceRef& surface, const TraceOptions& options = {},
                                         const Progress& progress = {});
 

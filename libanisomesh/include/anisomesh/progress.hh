@@ -8,7 +8,8 @@
 namespace anisomesh {
 
 /// Called now and then with the fraction done, in [0, 1]; returning false cancels the stage with Cancelled.
-/// Always called from the thread that called the stage.
+/// Always called from the thread that called the stage, which lets through what the callback throws; the mesh
+/// is then as after a cancel.
 using Progress = std::function<bool(double fraction)>;
 
 /// Reports `fraction` if there is a callback. \throw Cancelled if the callback returns false.

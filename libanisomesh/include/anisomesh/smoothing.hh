@@ -32,6 +32,7 @@ SmoothingReport smooth_tensors(const SurfaceRef& surface, const SmoothingOptions
 /// The one-sided 2D tensors at the three corners of every face, in the order of SurfaceRef::corners(): that
 /// of the vertex, except at a vertex on a feature, where it is the mean over its neighbours off the feature
 /// on the same side. [ACDLD03, section 2.5] Reads: tensor2d, edge feature status.
+/// \throw InvalidInput
 std::vector<std::array<Vec3d, 3>> corner_tensors(const SurfaceRef& surface);
 
 }  // namespace anisomesh

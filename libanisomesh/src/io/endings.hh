@@ -29,6 +29,7 @@ inline std::string require_ending(const std::string& path, const std::vector<std
   std::string list;
   for (size_t i = 0; i < endings.size(); ++i)
     list += (i == 0 ? "" : i + 1 == endings.size() ? " or " : ", ") + endings[i];
+  if (path.empty()) throw InvalidInput("the name of a file is empty; it has to end in " + list);
   throw InvalidInput(path + ": " +
                      (ending.empty() ? "the name has no ending" : "unknown ending '" + ending + "'") +
                      "; use " + list);
