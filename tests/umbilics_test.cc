@@ -11,6 +11,7 @@
 #include "catch.hh"
 #include "data.hh"
 #include "exact_curvature.hh"
+#include "field/linear_field.hh"
 #include "field/umbilic_analysis.hh"
 #include "numerics/tensor2d.hh"
 
@@ -162,12 +163,16 @@ TEST_CASE("lines of the field leave a degenerate point along its separatrices", 
       std::pair<LinearField, int>{{3, 0, 0, 1}, 1});
   std::array<Vec3d, 3> tensors;
   for (size_t i = 0; i < 3; ++i) tensors[i] = field.at(corners[i]);
+  const std::array<Vec2d, 3> deviators{detail::deviator(tensors[0]), detail::deviator(tensors[1]),
+                                       detail::deviator(tensors[2])};
+  const int index = detail::doubled_index(deviators);
+  CHECK(index == (expected == 3 ? -1 : 1));
+  const detail::UmbilicPoint umbilic{{OpenMesh::FaceHandle(0), detail::degenerate_point(deviators)}, index};
   for (const auto kind : {LineKind::min, LineKind::max}) {
-    const auto rays = detail::separatrices(corners, tensors, kind);
-    CHECK(rays.count == expected);
-    for (int i = 0; i < rays.count; ++i) {
-      const Vec2d ray(std::cos(rays.angle[static_cast<size_t>(i)]),
-                      std::sin(rays.angle[static_cast<size_t>(i)]));
+    const auto rays =
+        detail::separatrix_directions({corners, tensors}, umbilic, kind, Follow::curvature, 0.1);
+    CHECK(rays.size() == static_cast<size_t>(expected));
+    for (const Vec2d& ray : rays) {
       const Vec3d tensor = field.at(ray);
       const Vec2d direction =
           kind == LineKind::max ? detail::max_direction(tensor) : detail::min_direction(tensor);

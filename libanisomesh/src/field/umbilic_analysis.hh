@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "anisomesh/lines.hh"
+#include "anisomesh/surface.hh"
 
 namespace anisomesh::detail {
 
@@ -17,19 +17,5 @@ int doubled_index_of_edge(const Vec2d& a, const Vec2d& b);
 
 /// Barycentric coordinates of the zero of the linear field, clamped to the triangle.
 Vec3d degenerate_point(const std::array<Vec2d, 3>& deviators);
-
-/// Directions in the plane in which lines of one kind leave a degenerate point straight: three from a
-/// trisector, one from a wedge.
-struct Separatrices {
-  int count = 0;
-  std::array<double, 3> angle{};  ///< radians, counter-clockwise from the u axis, ascending
-};
-
-/// The rays of lines of `kind` at the degenerate point of the triangle with these corners in the plane and
-/// tensors (uu, uv, vv) at them. They are the real roots of a cubic in the tangent of the angle; each root is
-/// a ray of max lines one way and of min lines the other. Of a wedge whose cubic has three roots the middle
-/// ray is given. [Delmarcelle and Hesselink 1994]
-Separatrices separatrices(const std::array<Vec2d, 3>& corners, const std::array<Vec3d, 3>& tensors,
-                          LineKind kind);
 
 }  // namespace anisomesh::detail
