@@ -21,7 +21,7 @@ struct DensityOptions {
   void validate() const;  ///< \throw InvalidOption
 };
 
-/// Equation 6 of [ACDLD03]: the distance of two points on a circle of curvature |curvature| whose chord is
+/// [ACDLD03, section 3.1.3, equation 6]: the distance of two points on a circle of curvature |curvature| whose chord is
 /// epsilon away from the arc. Infinite at curvature 0; never above the diameter's chord, also where epsilon
 /// exceeds the radius. Model units.
 double chord_spacing(double curvature, double epsilon);

@@ -34,9 +34,9 @@ struct FitReport {
 
 /// Moves the vertices of a result off the surface to where the squared distance between the two is least,
 /// with the connectivity held. [ACDLD03, section 5, names it as what is missing] Reads: points, edge feature
-/// status; of `result` origin, source_face, source_barycentric, edge feature status. Writes: the points of
-/// `result`, never to a larger rms. \pre `result` was built by build_polygons() from `surface` \throw
-/// InvalidOption, InvalidInput, SolverFailure, Cancelled
+/// status, tensor and follow where they are there; of `result` origin, source_face, source_barycentric, edge
+/// feature status. Writes: the points of `result`, never to a larger rms. \pre `result` was built by
+/// build_polygons() from `surface` \throw InvalidOption, InvalidInput, SolverFailure, Cancelled
 FitReport fit_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& result, const FitOptions& options = {},
                        const Progress& progress = {});
 
