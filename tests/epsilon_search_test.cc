@@ -24,6 +24,7 @@ struct MadeUp {
   double last = 0, kept = 0;  ///< epsilon
   int keeps = 0;
   double enough_below = 0, enough_above = 0;
+  size_t spent_after = 0;  ///< attempts; 0: never
 
   detail::FoundEpsilon search(double wanted, int max_attempts = 8) {
     TargetOptions options;
@@ -42,6 +43,7 @@ struct MadeUp {
       kept = last;
       ++keeps;
     };
+    if (spent_after > 0) steps.is_spent = [this] { return asked.size() >= spent_after; };
     steps.enough_below = enough_below;
     steps.enough_above = enough_above;
     return detail::search_epsilon(wanted, options, steps);
@@ -121,6 +123,22 @@ TEST_CASE("where everything is refused the search ends with the refusal, each ep
       for (size_t j = 0; j < i; ++j) CHECK(std::abs(made.asked[i] / made.asked[j] - 1) > 1e-3);
     CHECK(made.keeps == 0);
   }
+}
+
+TEST_CASE("where refusals have taken too much work the search ends after a few", "[epsilon_search]") {
+  MadeUp made;
+  made.refused = [](double, size_t) { return true; };
+  made.spent_after = 2;
+  CHECK_THROWS_AS(made.search(1000), CannotProcess);
+  CHECK(made.asked.size() == 3);
+
+  MadeUp counts;  // what has a count only gets one try for a result
+  counts.only_near = true;
+  counts.count = [](double) { return 5000.0; };
+  counts.refused = [](double, size_t attempt) { return attempt > 0; };
+  counts.spent_after = 2;
+  CHECK_THROWS_AS(counts.search(1000), CannotProcess);
+  CHECK(counts.asked.size() == 5);
 }
 
 TEST_CASE("no surface is refused while a coarser or finer epsilon has a result", "[epsilon_search]") {

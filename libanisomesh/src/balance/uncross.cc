@@ -19,11 +19,21 @@ constexpr int max_rounds = 3;
 /// them, and what is mended at one place comes up again at the next.
 constexpr size_t few_pairs = 20;
 constexpr double few_share = 0.05;
+/// So many pairs for each triangle are of a surface that is crumpled all over: each is not worth knowing.
+constexpr size_t crumpled = 10;
 
 bool overlap(const Box& a, const Box& b) {
   for (int i = 0; i < 3; ++i)
     if (a.low[i] > b.high[i] || b.low[i] > a.high[i]) return false;
   return true;
+}
+
+/// Pairs that cross; none are told of where there are too many.
+std::vector<std::pair<int, int>> pairs_of(const PolygonSoup& soup) {
+  const size_t most = few_pairs + crumpled * soup.triangles.size();
+  auto pairs = crossing_triangles(soup, most);
+  if (pairs.size() >= most) pairs.clear();
+  return pairs;
 }
 
 /// Boxes of the surface's own triangles that cross others.
@@ -37,7 +47,7 @@ std::vector<Box> crossings_of(const SurfaceRef& surface) {
   }
   const PolygonSoup soup(std::move(points), std::move(faces), FaceDiagonal::shorter);
   std::vector<Box> boxes;
-  for (const auto& pair : crossing_triangles(soup))
+  for (const auto& pair : pairs_of(soup))
     for (const int t : {pair.first, pair.second}) {
       boxes.emplace_back();
       for (const int v : soup.triangles[at(t)]) boxes.back().add(soup.points[at(v)]);
@@ -112,7 +122,7 @@ std::vector<std::array<int, 2>> Uncrosser::pairs() const {
   }
   const PolygonSoup soup = soup_of(polygons);
   std::vector<std::array<int, 2>> result;
-  for (const auto& [t, u] : crossing_triangles(soup)) {
+  for (const auto& [t, u] : pairs_of(soup)) {
     const int p = soup.face_of[at(t)], q = soup.face_of[at(u)];
     const std::array<int, 2> pair{number[at(p)], number[at(q)]};
     if (!is_of_surface(pair)) result.push_back(pair);

@@ -7,12 +7,12 @@
 
 namespace anisomesh::detail {
 
-std::vector<std::pair<int, int>> crossing_triangles(const PolygonSoup& result) {
+std::vector<std::pair<int, int>> crossing_triangles(const PolygonSoup& result, size_t most) {
   const std::vector<int> place = merge_by_place(result.points);
   std::vector<Triangle> triangles = result.triangles;
   for (Triangle& corners : triangles)
     for (int& corner : corners) corner = place[static_cast<size_t>(corner)];
-  auto pairs = self_intersections(result.points, triangles);
+  auto pairs = self_intersections(result.points, triangles, most);
   const auto face_of = [&](int t) { return result.face_of[static_cast<size_t>(t)]; };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
                              [&](const auto& pair) { return face_of(pair.first) == face_of(pair.second); }),

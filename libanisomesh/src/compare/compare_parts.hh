@@ -1,6 +1,7 @@
 // What the parts of compare() share: both meshes as plain arrays, and one function a part.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "anisomesh/compare.hh"
@@ -57,8 +58,9 @@ std::vector<char> degenerate_faces(const PolygonSoup& result);
 std::vector<char> concave_faces(const PolygonSoup& result);
 
 /// Pairs of triangles of different faces that have more in common than shared corners and sides; vertices in
-/// one place are one.
-std::vector<std::pair<int, int>> crossing_triangles(const PolygonSoup& result);
+/// one place are one. Past `most` pairs, those of one face counted, no more are looked for.
+std::vector<std::pair<int, int>> crossing_triangles(const PolygonSoup& result,
+                                                    size_t most = std::numeric_limits<size_t>::max());
 
 // Each part fills its own fields of the comparison.
 void measure_distances(const ReferenceSurface& reference, const PolygonSoup& result,

@@ -253,6 +253,7 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
       return {};
     }
     ++local.retries;
+    if (report) *report = local;  // for those who hear of no more than a refusal
     if (local.retries > max_retries) refuse(unsound.front(), network, unsound.size(), surface);
     take_more_care(unsound, network, local.retries, start);
   }

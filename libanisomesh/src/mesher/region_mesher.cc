@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -44,19 +45,32 @@ class RegionMesher {
   std::vector<Piece> pieces_of(const SmallTriangulation& triangulation) const;
   double distance(const Probe& probe, int a, int b, int c) const;
   double distance(const Probe& probe, const std::vector<std::array<int, 3>>& triangles) const;
+  double squared_distance(const Probe& probe, const std::array<int, 3>& triangle) const;
+  void bring_up_to_date(const std::vector<std::array<int, 3>>& triangles);
   std::vector<std::array<int, 3>> as_drawn(const std::vector<Piece>& pieces) const;
   Probe* worst_probe(const SmallTriangulation& triangulation);
   bool add_worst(SmallTriangulation& triangulation, RegionPolygons& result);
   void drop_last_corner();
   size_t folds(const SmallTriangulation& triangulation) const;
   double border_distance(const Vec3d& p) const;
-  void flip_to_lower_cost(SmallTriangulation& triangulation) const;
+  double cost(int a, int b, int c);
+  void flip_to_lower_cost(SmallTriangulation& triangulation);
 
   Region& region_;
   RegionCorners& corners_;
   const PolygonJudge& judge_;
   const RegionOptions& options_;
   const double tolerance_;
+
+  // What is known of each probe while samples are added: each changes few triangles only.
+  struct Known {
+    double squared = std::numeric_limits<double>::infinity();  // distance from the triangles, and which
+    size_t triangle = 0;
+    double border = -1;  // distance; below 0: not asked for yet
+  };
+  std::vector<Known> known_;
+  std::vector<std::array<int, 3>> known_for_;
+  std::map<std::array<int, 3>, double> costs_;  // of triangles: to find the middle of a chord takes time
 };
 
 // Distance of the surface from the plane of a triangle; the nearest point is not sought, since it lies
@@ -71,12 +85,7 @@ double RegionMesher::distance(const Probe& probe, int a, int b, int c) const {
 double RegionMesher::distance(const Probe& probe, const std::vector<std::array<int, 3>>& triangles) const {
   if (corners_.on_surface) {  // by what is nearest in space: (u, v) is too coarse a guess
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& t : triangles) {
-      const Vec3d &p = corners_.position[at(t[0])], &q = corners_.position[at(t[1])],
-                  &r = corners_.position[at(t[2])];
-      const Vec3d b = closest_barycentric(probe.position, p, q, r);
-      least = std::min(least, (b[0] * p + b[1] * q + b[2] * r - probe.position).sqrnorm());
-    }
+    for (const auto& t : triangles) least = std::min(least, squared_distance(probe, t));
     return std::sqrt(least);
   }
   double best = -std::numeric_limits<double>::infinity(), result = 0;
@@ -90,6 +99,38 @@ double RegionMesher::distance(const Probe& probe, const std::vector<std::array<i
     if (best >= 0) break;
   }
   return result;
+}
+
+double RegionMesher::squared_distance(const Probe& probe, const std::array<int, 3>& triangle) const {
+  const Vec3d &p = corners_.position[at(triangle[0])], &q = corners_.position[at(triangle[1])],
+              &r = corners_.position[at(triangle[2])];
+  const Vec3d b = closest_barycentric(probe.position, p, q, r);
+  return (b[0] * p + b[1] * q + b[2] * r - probe.position).sqrnorm();
+}
+
+// Only triangles that are not what they were are measured again; all where a probe's nearest is one of them.
+void RegionMesher::bring_up_to_date(const std::vector<std::array<int, 3>>& triangles) {
+  std::vector<size_t> changed;
+  std::vector<char> is_changed(std::max(triangles.size(), known_for_.size()), 1);
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    is_changed[t] = t >= known_for_.size() || triangles[t] != known_for_[t];
+    if (is_changed[t]) changed.push_back(t);
+  }
+  known_.resize(region_.probes.size());
+  for (size_t i = 0; i < known_.size(); ++i) {
+    Known& known = known_[i];
+    const auto look = [&](size_t t) {
+      const double squared = squared_distance(region_.probes[i], triangles[t]);
+      if (squared < known.squared) known.squared = squared, known.triangle = t;
+    };
+    if (known_for_.empty() || is_changed[known.triangle]) {
+      known.squared = std::numeric_limits<double>::infinity();
+      for (size_t t = 0; t < triangles.size(); ++t) look(t);
+    } else {
+      for (const size_t t : changed) look(t);
+    }
+  }
+  known_for_ = triangles;
 }
 
 // Triangles of the polygons with the shorter diagonal, as a viewer draws them.
@@ -124,16 +165,21 @@ Probe* RegionMesher::worst_probe(const SmallTriangulation& triangulation) {
                       .norm();
   const double size = edge_distance * std::sqrt(area);
   Probe* chosen = nullptr;
-  for (Probe& probe : region_.probes) {
+  known_.resize(region_.probes.size());
+  if (corners_.on_surface) bring_up_to_date(triangulation.triangles());
+  for (size_t i = 0; i < region_.probes.size(); ++i) {
+    Probe& probe = region_.probes[i];
     double d = 0;
     if (corners_.on_surface) {
-      d = distance(probe, triangulation.triangles());
+      d = std::sqrt(known_[i].squared);
     } else {
       const auto& t = triangulation.triangles()[at(triangulation.locate(probe.uv))];
       d = distance(probe, t[0], t[1], t[2]);
     }
     if (d <= tolerance_) continue;
-    const double weighted = d * std::min(1.0, border_distance(probe.position) / size);
+    double& border = known_[i].border;
+    if (border < 0) border = border_distance(probe.position);
+    const double weighted = d * std::min(1.0, border / size);
     if (!is_surely_less(worst, weighted)) continue;
     worst = weighted;
     chosen = &probe;
@@ -170,7 +216,9 @@ bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& 
   corners_.face.push_back(chosen->point.face);
   corners_.corner_normal.emplace_back(0, 0, 0);
   const SurfacePoint point = chosen->point;
-  region_.probes.erase(region_.probes.begin() + (chosen - region_.probes.data()));
+  const auto index = chosen - region_.probes.data();
+  region_.probes.erase(region_.probes.begin() + index);
+  known_.erase(known_.begin() + index);
   std::optional<SmallTriangulation> before;
   if (corners_.on_surface && region_.share < 1) before = triangulation;
   if (!triangulation.insert(static_cast<int>(corners_.uv.size()) - 1)) {
@@ -181,14 +229,21 @@ bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& 
   if (before && folds(triangulation) > folds(*before)) {
     triangulation = std::move(*before);
     drop_last_corner();
+    costs_.clear();  // the next corner has its number
   } else {
     result.added.push_back(point);
   }
   return true;
 }
 
+double RegionMesher::cost(int a, int b, int c) {
+  const auto [found, is_new] = costs_.try_emplace({a, b, c}, 0.0);
+  if (is_new) found->second = judge_.triangle_cost(corners_, a, b, c);
+  return found->second;
+}
+
 // [ACDLD03, section 4.2]: "further edge-swaps can be performed later to reduce ... approximation error".
-void RegionMesher::flip_to_lower_cost(SmallTriangulation& triangulation) const {
+void RegionMesher::flip_to_lower_cost(SmallTriangulation& triangulation) {
   bool changed = true;
   for (int pass = 0; changed && pass < flip_passes; ++pass) {
     changed = false;
@@ -197,10 +252,8 @@ void RegionMesher::flip_to_lower_cost(SmallTriangulation& triangulation) const {
         if (triangulation.neighbor(t, k) < t || !triangulation.can_flip(t, k)) continue;
         const auto& c = triangulation.triangles()[at(t)];
         const int apex = c[k], a = c[(k + 1) % 3], b = c[(k + 2) % 3], foot = triangulation.across(t, k);
-        const double now =
-            judge_.triangle_cost(corners_, apex, a, b) + judge_.triangle_cost(corners_, foot, b, a);
-        const double then =
-            judge_.triangle_cost(corners_, apex, a, foot) + judge_.triangle_cost(corners_, foot, b, apex);
+        const double now = cost(apex, a, b) + cost(foot, b, a);
+        const double then = cost(apex, a, foot) + cost(foot, b, apex);
         if (then >= now - 1e-6) continue;
         triangulation.flip(t, k);
         changed = true;

@@ -55,16 +55,22 @@ bool Soup::have_overlap(int t, int u) const {
 }  // namespace
 
 std::vector<std::pair<int, int>> self_intersections(const std::vector<Vec3d>& points,
-                                                    const std::vector<Triangle>& triangles) {
+                                                    const std::vector<Triangle>& triangles, size_t most) {
   Soup soup{{}, triangles};
   for (const Vec3d& p : points) soup.points.emplace_back(p[0], p[1], p[2]);
   std::vector<Bounds> boxes;
   for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
     if (!soup.is_degenerate(t)) boxes.emplace_back(soup.triangle(t).bbox(), t);
   std::vector<std::pair<int, int>> found;
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Bounds& a, const Bounds& b) {
-    if (soup.have_overlap(a.info(), b.info())) found.push_back(std::minmax(a.info(), b.info()));
-  });
+  struct Enough {};  // no callback of CGAL's can end its search
+  try {
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Bounds& a, const Bounds& b) {
+      if (!soup.have_overlap(a.info(), b.info())) return;
+      found.push_back(std::minmax(a.info(), b.info()));
+      if (found.size() >= most) throw Enough();
+    });
+  } catch (const Enough&) {
+  }
   std::sort(found.begin(), found.end());
   return found;
 }

@@ -1,6 +1,8 @@
 // Where a triangle soup crosses or overlaps itself.
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -10,8 +12,9 @@ namespace anisomesh::detail {
 
 /// Pairs of triangles that have more in common than the corners and edges they share by index, the lower
 /// number first, in ascending order. Triangles without area are left out.
-/// Decided by exact predicates. \pre the points are finite.
+/// Decided by exact predicates. Past `most` of them no more are looked for. \pre the points are finite.
 std::vector<std::pair<int, int>> self_intersections(const std::vector<Vec3d>& points,
-                                                    const std::vector<Triangle>& triangles);
+                                                    const std::vector<Triangle>& triangles,
+                                                    size_t most = std::numeric_limits<size_t>::max());
 
 }  // namespace anisomesh::detail

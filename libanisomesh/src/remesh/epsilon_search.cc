@@ -16,7 +16,7 @@ namespace {
 constexpr double kFirstRatio = 1.8;
 /// Where polygons cannot be made, those of an epsilon so much smaller often can, a few times.
 constexpr double kNextAfterRefusal = 0.85;
-constexpr size_t kMostRefusals = 4;
+constexpr size_t kMostRefusals = 4, kFewRefusals = 3;
 constexpr int kMostSteps = 3;   ///< of 2, to both sides, where all else was refused
 constexpr double kSame = 1e-3;  ///< logarithm: an epsilon so near to another one gives the same
 /// A count that falls by a smaller power of epsilon is not the density's any more: features, the border or
@@ -131,6 +131,11 @@ std::vector<double> last_resorts(std::vector<Trial> trials, const std::vector<do
   return result;
 }
 
+/// Whether no other epsilon is worth the work of one more refusal.
+bool is_enough(const std::vector<double>& refused, const EpsilonSearch& search) {
+  return refused.size() >= kFewRefusals && search.is_spent && search.is_spent();
+}
+
 /// A result where there were only counts or refusals so far: no surface is refused while some epsilon has
 /// one. \throw CannotProcess after too many refusals
 Trial make_at_any_count(const std::vector<Trial>& trials, std::vector<double> refused, double wanted,
@@ -145,8 +150,8 @@ Trial make_at_any_count(const std::vector<Trial>& trials, std::vector<double> re
       found.tried.push_back({resorts[i], count});
       return trial_of(resorts[i], count, wanted);
     } catch (const CannotProcess&) {
-      if (i + 1 == resorts.size()) throw;
       refused.push_back(resorts[i]);
+      if (i + 1 == resorts.size() || is_enough(refused, search)) throw;
     }
   }
 }
@@ -168,6 +173,8 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
     } catch (const CannotProcess&) {
       refused.push_back(epsilon);
       if (refused.size() > kMostRefusals || is_last) break;
+      if (is_enough(refused, search) && trials.empty()) throw;
+      if (is_enough(refused, search)) break;
       epsilon = after_refusal(epsilon, trials);
       continue;
     }

@@ -23,6 +23,8 @@ struct EpsilonSearch {
   std::function<Made(double epsilon, bool any)> make;
   /// The result that was made last is the best so far.
   std::function<void()> keep;
+  /// Whether refusals have taken so much work that a few are enough; none: never.
+  std::function<bool()> is_spent;
   /// Fractions of the target by which a count may be below and above it, if these are more than the
   /// tolerance.
   double enough_below = 0, enough_above = 0;

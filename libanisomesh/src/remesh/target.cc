@@ -35,6 +35,8 @@ constexpr double kFacesLeft = 1.1;
 
 constexpr size_t most_wanted = 10'000'000;  // more than memory holds
 
+/// Vertices made in attempts that were refused, once for each time they were made anew: no more are spent.
+constexpr size_t kMostInVain = 60'000;
 /// So many times the vertices that there have to be, no other epsilon need be tried for fewer.
 constexpr double kHardlyMore = 1.05;
 
@@ -217,11 +219,20 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   const double share = !mesh.for_fit ? 1 : target.target_faces > 0 ? kFacesForFit : kForFit;
   // In fractions of the extent, so that the same ones are tried however the surface is turned.
   search.crossings = [&](double epsilon) { return share * model.count(epsilon * surface.extent()); };
+  size_t in_vain = 0;
+  search.is_spent = [&] { return in_vain > kMostInVain; };
   search.make = [&, made = 0](double epsilon, bool any) mutable {
     options.density.epsilon_fraction = epsilon * surface.extent() / diagonal;
     is_last_best = false;
     ++made;
-    auto attempt = run(1 - std::pow(0.6, made - 1), 1 - std::pow(0.6, made), any);
+    done.mesh = {};
+    detail::PolygonAttempt attempt;
+    try {
+      attempt = run(1 - std::pow(0.6, made - 1), 1 - std::pow(0.6, made), any);
+    } catch (const CannotProcess&) {
+      in_vain += done.mesh.retries * done.mesh.vertices;
+      throw;
+    }
     last = std::move(attempt.mesh);
     return detail::EpsilonSearch::Made{
         count_of(done.mesh.vertices, done.mesh.faces), attempt.sound,
