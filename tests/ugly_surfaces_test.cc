@@ -229,6 +229,26 @@ TEST_CASE("long plates and needles of boxes are remeshed in a moment", "[ugly]")
   }
 }
 
+// Steps as steep as they are narrow lie so thin in the plane that polygons at their corners are folded there
+// for every epsilon; on the surface they are not.
+TEST_CASE("a disc that the plane refuses is done on the surface", "[ugly]") {
+  const auto terraces = sheet(90, 20, false, false, [](double u, double v) {
+    const double x = 0.4 + 0.6 * u, y = v * 2 / 15;
+    return Vec3d(x, y, std::floor(10 * (std::sin(3 * x) * std::cos(4 * y) + 1)) / 25);
+  });
+  auto mesh = terraces.read();
+  RemeshOptions options;
+  options.target_faces = 200;
+  options.features.angle_degrees = 40;
+  options.domain = Domain::plane;
+  CHECK_THROWS_AS(remesh(mesh, options), CannotProcess);
+  options.domain = Domain::automatic;
+  RemeshReport report;
+  auto result = remesh(mesh, options, &report);
+  CHECK(report.domain.used == Domain::surface);
+  check_sound(compare(mesh, result));
+}
+
 TEST_CASE("what is no surface is refused with its reason", "[ugly]") {
   const Soup flat{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}};
   CHECK_THROWS_AS(remeshed(flat.read(), 10), InvalidInput);

@@ -97,6 +97,24 @@ OpenMesh::PolyMesh remesh_tagged(const SurfaceRef& surface, const RemeshOptions&
   return result;
 }
 
+/// As remesh_tagged(); what the plane refuses is done on the surface, unless the plane was asked for.
+OpenMesh::PolyMesh remesh_somewhere(const SurfaceRef& surface, const RemeshOptions& options,
+                                    RemeshReport& done, const Progress& progress) {
+  double reached = 0;
+  const Progress onward = [&](double fraction) {
+    reached = std::max(reached, fraction);
+    return !progress || progress(reached);
+  };
+  try {
+    return remesh_tagged(surface, options, done, onward);
+  } catch (const CannotProcess&) {
+    if (options.domain != Domain::automatic || done.domain.used != Domain::plane) throw;
+  }
+  RemeshOptions elsewhere = options;
+  elsewhere.domain = Domain::surface;
+  return remesh_tagged(surface, elsewhere, done, onward);
+}
+
 }  // namespace
 
 OpenMesh::PolyMesh remesh(const SurfaceRef& surface, const RemeshOptions& options, RemeshReport* report,
@@ -106,7 +124,7 @@ OpenMesh::PolyMesh remesh(const SurfaceRef& surface, const RemeshOptions& option
   RemeshReport done;
   done.features = tag_features(surface, options.features);
   OpenMesh::PolyMesh result = detail::in_canonical_order(
-      surface, [&](const SurfaceRef& ordered) { return remesh_tagged(ordered, options, done, progress); });
+      surface, [&](const SurfaceRef& ordered) { return remesh_somewhere(ordered, options, done, progress); });
   done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (report) *report = done;
   return result;
