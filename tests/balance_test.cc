@@ -342,3 +342,18 @@ TEST_CASE("what counts as far is no farther than the ruler sees", "[balance]") {
   CHECK(far.limit() <=
         std::max(6.001 * rms, 0.5001 * compare(mesh, result).two_sided.hausdorff * surface.diagonal()));
 }
+
+TEST_CASE("far too many vertices are taken out until as many are left as were asked for", "[balance]") {
+  auto ellipsoid = shape("ellipsoid");
+  auto result = remeshed(ellipsoid, 1000);
+  const double of_many = compare(ellipsoid, result).two_sided.rms;
+  BalanceOptions options;
+  options.target_vertices = 200;
+  const auto report = balance_vertices(ellipsoid, result, options);
+  CHECK(result.n_vertices() == Approx(200).epsilon(0.02));
+  CHECK(report.removed > 700);
+  const auto compared = compare(ellipsoid, result);
+  check_sound(compared);
+  // Error falls as 1 / vertices, and the fit takes more than half of it.
+  CHECK(compared.two_sided.rms < 0.6 * 5 * of_many);
+}

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "anisomesh/errors.hh"
@@ -25,6 +26,7 @@ struct MadeUp {
   int keeps = 0;
   double enough_below = 0, enough_above = 0;
   size_t spent_after = 0;  ///< attempts; 0: never
+  double coarsest = std::numeric_limits<double>::infinity();
 
   detail::FoundEpsilon search(double wanted, int max_attempts = 8) {
     TargetOptions options;
@@ -46,6 +48,7 @@ struct MadeUp {
     if (spent_after > 0) steps.is_spent = [this] { return asked.size() >= spent_after; };
     steps.enough_below = enough_below;
     steps.enough_above = enough_above;
+    steps.coarsest = coarsest;
     return detail::search_epsilon(wanted, options, steps);
   }
 };
@@ -275,4 +278,23 @@ TEST_CASE("counts without a result lead to one all the same", "[epsilon_search]"
     CHECK(made.kept == Approx(std::pow(0.85, refusals) * made.asked[0]));
     CHECK(far.attempts == static_cast<int>(made.asked.size()));
   }
+}
+
+TEST_CASE("beyond the coarsest epsilon none is tried, and too many there are what was looked for",
+          "[epsilon_search]") {
+  MadeUp made;
+  made.only_near = true;
+  made.coarsest = 0.0004;
+  auto found = made.search(1000);
+  CHECK(found.met);
+  CHECK(made.asked == std::vector<double>{0.0004});
+  CHECK(made.kept == 0.0004);
+  // Where there are too few, the search goes on below it.
+  made = MadeUp();
+  made.coarsest = 0.0015;
+  made.count = [](double epsilon) { return 0.9 / epsilon; };
+  found = made.search(1000);
+  CHECK(found.met);
+  CHECK(made.kept == Approx(0.0009).epsilon(0.1));
+  for (const double epsilon : made.asked) CHECK(epsilon <= 0.0015);
 }

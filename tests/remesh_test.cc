@@ -212,6 +212,24 @@ TEST_CASE("the real discs meet a target", "[remesh][data]") {
   }
 }
 
+TEST_CASE("a few polygons keep the limbs of a figure", "[remesh][data]") {
+  const auto path = demo_mesh("man.off");
+  if (!path) return skip("man.off");
+  auto mesh = read_surface(*path);
+  RemeshOptions options;
+  options.target_faces = 200;
+  const auto rms = [&] {
+    auto result = remesh(mesh, options);
+    const auto compared = compare(mesh, result);
+    check_sound(compared);
+    return compared.two_sided.rms;
+  };
+  options.coarsen = false;
+  const double of_few_lines = rms();
+  options.coarsen = true;
+  CHECK(rms() < 0.5 * of_few_lines);
+}
+
 TEST_CASE("progress only grows, and stopping at any point leaves a mesh to go on with", "[remesh]") {
   auto mesh = make_shape("saddle", {1500, true});
   std::vector<double> seen;

@@ -227,6 +227,11 @@ void add_target_options(Command& command, TargetOptions& options) {
       ->type_name("N")
       ->excludes(faces)
       ->group("Density");
+  app.add_flag(
+         "--coarsen,!--no-coarsen", options.coarsen,
+         "Where so few lines would not tell the shape: lines for more, of which the balance takes out what "
+         "is too much; on by default")
+      ->group("Density");
 }
 
 void add_mesh_options(Command& command, MeshOptions& options, const std::string& heading) {

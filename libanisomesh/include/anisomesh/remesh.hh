@@ -21,7 +21,11 @@ struct TargetOptions {
   size_t target_faces = 0;     ///< about so many faces, at most 1e7; 0: no target
   size_t target_vertices = 0;  ///< about so many vertices; 0: no target; not both
   double tolerance = 0.03;  ///< the search ends when the count is within this fraction of the target; (0, 1)
-  int max_attempts = 8;   ///< lines are traced at most so often; from the third on 10 % is near enough; >= 1
+  int max_attempts = 8;  ///< lines are traced at most so often; from the third on 10 % is near enough; >= 1
+  /// Where so few lines would not tell the shape, as with less than seven chords around a full turn, lines
+  /// are traced for more, up to eight times as many, and balance_vertices() takes the rest out. Only with
+  /// MeshOptions::for_fit; false: there too for the target itself
+  bool coarsen = true;
   void validate() const;  ///< \throw InvalidOption
 };
 

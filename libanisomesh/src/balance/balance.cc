@@ -29,6 +29,9 @@ using detail::PatchMove;
 constexpr int passes_before = 2, passes_between = 1;
 constexpr int more_rounds = 3;  // where there are too many after those asked for
 constexpr double near_enough = 0.05;
+/// Taken out at once where there are far too many, those that cost least then; and what a round must take out
+/// of all for another to follow.
+constexpr double most_at_once = 0.15, least_at_once = 0.02;
 constexpr double sure = 1.2;  // an exchange must gain this many times what it costs
 
 /// Takes removals and additions in turn, as long as that pays, or the number of vertices is not what it is to
@@ -116,14 +119,31 @@ class Balance {
     const detail::PatchMoves moves(surface_, input_, *state_, options_);
     PatchMesh mesh(work_);
     PatchChanges changes(mesh);
-    const long surplus = wanted_.surplus(work_);
-    const auto removals = moves.removals(mesh), additions = moves.additions(mesh, surplus < 0),
+    const auto at_once = static_cast<long>(most_at_once * static_cast<double>(work_.n_vertices()));
+    const long surplus = std::min(wanted_.surplus(work_), at_once);
+    const auto removals = moves.removals(mesh, surplus == at_once),
+               additions = moves.additions(mesh, surplus < 0),
                far = detail::FarMoves(reference_, *state_, options_).repartitions(mesh),
                repartitions = moves.repartitions(mesh);
     part(changes, far);
     exchange(changes, removals, additions, surplus, report_);
     part(changes, repartitions);
     go_on_with(mesh);
+  }
+
+  /// Far too many are taken out a few at a time, each time those that cost least of what is there by then.
+  /// \return whether some were
+  bool coarsen(const Progress& progress) {
+    bool any = false;
+    while (wanted_.is_exceeded(work_, most_at_once)) {
+      const auto before = static_cast<double>(work_.n_vertices());
+      report_progress(progress, 0);
+      fit(any ? passes_between : passes_before);
+      move();
+      if (static_cast<double>(work_.n_vertices()) > (1 - least_at_once) * before) break;
+      any = true;
+    }
+    return any;
   }
 
   /// The farthest places alone.
@@ -190,6 +210,7 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
   double rms_fitted = 0;
   report.fit.rms_before = balance.rms();
   const bool change = options.rounds > 0 && (options.max_degree == 3 || options.max_degree == 4);
+  const bool coarsened = change && balance.coarsen(progress);
   for (int round = 0; change && round < options.rounds + more_rounds; ++round) {
     if (round >= options.rounds && !balance.wanted().is_exceeded(balance.work(), near_enough)) break;
     report_progress(progress, std::min(round, options.rounds) / (options.rounds + 1.0));
@@ -212,11 +233,13 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
                          rms_fitted * static_cast<double>(result.n_vertices());
   if (worse) report.fit.rms_after = rms_fitted;
   if (change && !worse) balance.split_quads();
-  std::vector<OpenMesh::PolyMesh> candidates{result};
+  std::vector<OpenMesh::PolyMesh> candidates;
+  if (!coarsened) candidates.push_back(result);
   if (change) candidates.push_back(std::move(fitted));
   if (!worse) candidates.push_back(std::move(balance.work()));
   const auto taken = static_cast<size_t>(choose_unfolded(surface, balance.reference(), candidates));
-  if (taken + 1 < candidates.size()) report.fit.rms_after = taken == 0 ? report.fit.rms_before : rms_fitted;
+  if (taken + 1 < candidates.size())
+    report.fit.rms_after = taken == 0 && !coarsened ? report.fit.rms_before : rms_fitted;
   result = std::move(candidates[taken]);
   report.fit.seconds = report.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -372,7 +372,7 @@ double PatchMoves::guess(const PatchMesh& mesh, const PatchMesh::Patch& star, in
   return length * height * height;
 }
 
-std::vector<PatchMove> PatchMoves::removals(const PatchMesh& mesh) const {
+std::vector<PatchMove> PatchMoves::removals(const PatchMesh& mesh, bool of_all) const {
   const size_t n = mesh.vertices().size();
   std::vector<PatchMesh::Patch> stars(n);
   std::vector<std::pair<double, int>> guesses(n);
@@ -383,7 +383,7 @@ std::vector<PatchMove> PatchMoves::removals(const PatchMesh& mesh) const {
                   static_cast<int>(v)};
   });
   std::sort(guesses.begin(), guesses.end());
-  std::vector<PatchMove> moves(static_cast<size_t>(tried_removals * static_cast<double>(n)));
+  std::vector<PatchMove> moves(of_all ? n : static_cast<size_t>(tried_removals * static_cast<double>(n)));
   tbb::parallel_for(size_t{0}, moves.size(), [&](size_t i) {
     const auto& star = stars[at(guesses[i].second)];
     if (!star.ring.empty()) moves[i] = partition(mesh, star, false);

@@ -32,8 +32,9 @@ class PatchMoves {
 
   /// Moves that keep all vertices, best first.
   std::vector<PatchMove> repartitions(const PatchMesh& mesh) const;
-  /// Vertices whose removal costs least, that first.
-  std::vector<PatchMove> removals(const PatchMesh& mesh) const;
+  /// Vertices whose removal costs least, that first. \param of_all tries every one, not only those that seem
+  /// cheapest
+  std::vector<PatchMove> removals(const PatchMesh& mesh, bool of_all = false) const;
   /// Vertices to add, best first. \param lacking are vertices: other polygons than the worst are tried too
   std::vector<PatchMove> additions(const PatchMesh& mesh, bool lacking) const;
   /// Vertices to add where a sample is farther than this, best first.

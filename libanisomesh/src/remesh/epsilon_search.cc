@@ -27,16 +27,6 @@ constexpr double kNearTarget = 0.5;  ///< logarithm
 constexpr double kLongStep = 2;
 constexpr double kLowest = 1e-8, kHighest = 0.5;  ///< epsilon, fraction of the extent
 
-/// The epsilon for which the density asks for so many crossings.
-double epsilon_of(double wanted, const std::function<double(double)>& crossings) {
-  double low = std::log(kLowest), high = std::log(kHighest);
-  for (int i = 0; i < 40; ++i) {
-    const double middle = 0.5 * (low + high);
-    (crossings(std::exp(middle)) > wanted ? low : high) = middle;
-  }
-  return std::exp(0.5 * (low + high));
-}
-
 struct Trial {
   double log_epsilon = 0;
   double log_ratio = 0;  ///< log of count over target
@@ -158,6 +148,15 @@ Trial make_at_any_count(const std::vector<Trial>& trials, std::vector<double> re
 
 }  // namespace
 
+double epsilon_of(double wanted, const std::function<double(double)>& crossings) {
+  double low = std::log(kLowest), high = std::log(kHighest);
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (crossings(std::exp(middle)) > wanted ? low : high) = middle;
+  }
+  return std::exp(0.5 * (low + high));
+}
+
 FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const EpsilonSearch& search) {
   FoundEpsilon found;
   std::vector<Trial> trials;
@@ -165,11 +164,14 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
   double best_off = std::numeric_limits<double>::infinity();
   int stalls = 0;
   double epsilon = epsilon_of(wanted / kFirstRatio, search.crossings);
+  bool at_coarsest = false;
   for (;;) {
     const bool is_last = ++found.attempts >= options.max_attempts;
+    const bool is_coarsest = epsilon >= search.coarsest;
+    epsilon = std::min(epsilon, search.coarsest);
     EpsilonSearch::Made made;
     try {
-      made = search.make(epsilon, is_last);
+      made = search.make(epsilon, is_last || is_coarsest);
     } catch (const CannotProcess&) {
       refused.push_back(epsilon);
       if (refused.size() > kMostRefusals || is_last) break;
@@ -183,7 +185,9 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
     const double off = trials.back().off();
     const bool stalled = trials.back().stalled = is_stalled(trials);
     const bool enough = off <= (trials.back().log_ratio < 0 ? search.enough_below : search.enough_above);
-    const bool met = off <= options.tolerance || enough || (found.attempts >= 3 && off <= kMet);
+    at_coarsest = is_coarsest && trials.back().log_ratio > 0;
+    const bool met =
+        off <= options.tolerance || enough || at_coarsest || (found.attempts >= 3 && off <= kMet);
     if (made.has_result && (met || (!stalled && off < best_off))) {
       best_off = off;
       search.keep();
@@ -198,7 +202,7 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
       break;
   }
   if (!std::isfinite(best_off)) best_off = make_at_any_count(trials, refused, wanted, search, found).off();
-  found.met = best_off <= kMet;
+  found.met = best_off <= kMet || at_coarsest;
   return found;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "anisomesh/remesh.hh"
@@ -28,13 +29,18 @@ struct EpsilonSearch {
   /// Fractions of the target by which a count may be below and above it, if these are more than the
   /// tolerance.
   double enough_below = 0, enough_above = 0;
+  /// No epsilon above this is tried: where its count is above the target it is what was looked for.
+  double coarsest = std::numeric_limits<double>::infinity();
 };
 
 struct FoundEpsilon {
   std::vector<Attempt> tried;  ///< those with a result
   int attempts = 0;            ///< those without a result too
-  bool met = false;            ///< the best result is within 10 % of the target
+  bool met = false;            ///< the best result is within 10 % of the target, or the coarsest there may be
 };
+
+/// The epsilon for which the density asks for so many crossings, in [1e-8, 0.5].
+double epsilon_of(double wanted, const std::function<double(double epsilon)>& crossings);
 
 /// Seeks the epsilon whose result has `wanted` faces or vertices: a guess from the density, then a secant.
 /// One that is refused is followed by a smaller one, a few times; where no attempt has a result, coarser and

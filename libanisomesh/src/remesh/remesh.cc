@@ -83,7 +83,9 @@ OpenMesh::PolyMesh remesh_tagged(const SurfaceRef& surface, const RemeshOptions&
   } else {
     MeshOptions mesh = options.mesh;
     mesh.for_fit |= options.fit.enabled;
-    result = trace_and_mesh(surface, options.trace, mesh, options, &done,
+    TargetOptions target = options;
+    target.coarsen = target.coarsen && options.fit.enabled && options.balance.rounds > 0;
+    result = trace_and_mesh(surface, options.trace, mesh, target, &done,
                             sub_progress(progress, 0.4, options.fit.enabled ? 0.8 : 1));
     if (options.fit.enabled)
       done.balance = balance_vertices(surface, result, balance, options.fit, sub_progress(progress, 0.8, 1));

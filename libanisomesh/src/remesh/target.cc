@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "anisomesh/flatten.hh"
@@ -32,6 +35,11 @@ constexpr double kEnoughBelow = 0.08, kEnoughAbove = 0.07;
 /// surface of quads alone there is one for each, and one more for each below zero of the Euler
 /// characteristic.
 constexpr double kFacesLeft = 1.1;
+
+/// Lines tell the shape where a chord lies nearer to its arc than this fraction of the radius, with which it
+/// takes seven to go around, all but on so much of the area. For fewer polygons than that the balance takes
+/// vertices out, at most so many of each that is wanted.
+constexpr double kCoarsest = 0.1, kCoarserThere = 0.25, kMostCoarsening = 8;
 
 constexpr size_t most_wanted = 10'000'000;  // more than memory holds
 
@@ -92,6 +100,20 @@ class CrossingModel {
       }
     }
     mean_curvature_ = total > 0 ? bent / total : 0;
+  }
+
+  /// The largest with which lines still tell the shape, in model units; infinite where it is flat.
+  double coarsest_epsilon() const {
+    std::vector<std::pair<double, double>> bent;  // curvature, area
+    double left = 0;
+    for (const Patch& patch : patches_) {
+      bent.emplace_back(std::max(std::abs(patch.k_min), std::abs(patch.k_max)), patch.area);
+      left += kCoarserThere * patch.area;
+    }
+    std::sort(bent.begin(), bent.end(), std::greater<>());
+    for (const auto& [curvature, area] : bent)
+      if ((left -= area) <= 0) return kCoarsest / curvature;
+    return std::numeric_limits<double>::infinity();
   }
 
   /// \param epsilon model units
@@ -221,6 +243,9 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   search.crossings = [&](double epsilon) { return share * model.count(epsilon * surface.extent()); };
   size_t in_vain = 0;
   search.is_spent = [&] { return in_vain > kMostInVain; };
+  if (balanced && target.coarsen)
+    search.coarsest = std::max(model.coarsest_epsilon() / surface.extent(),
+                               detail::epsilon_of(kMostCoarsening * wanted, search.crossings));
   search.make = [&, made = 0](double epsilon, bool any) mutable {
     options.density.epsilon_fraction = epsilon * surface.extent() / diagonal;
     is_last_best = false;
