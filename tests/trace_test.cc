@@ -363,6 +363,9 @@ TEST_CASE("a cancelled or refused trace leaves the mesh as it was", "[trace]") {
   TraceOptions options;
   options.stop_fraction = 1;
   CHECK_THROWS_AS(trace_lines(mesh, options), InvalidOption);
+  options = {};
+  options.density.epsilon_fraction = 1e-14;  // without end, were it begun
+  CHECK_THROWS_WITH(trace_lines(mesh, options), Catch::Contains("more than memory holds"));
   CHECK(!has_property(mesh, property::line_table));
   CHECK(!has_property(mesh, property::epsilon));
   auto umbilic = require_property(mesh, property::umbilic);

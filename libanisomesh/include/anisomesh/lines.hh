@@ -74,7 +74,8 @@ struct TraceReport {
 
 /// Traces the network of lines of curvature. [ACDLD03, section 3.1]
 /// Reads: uv, area_stretch, tensor2d (without uv: surface_tensor, normal), umbilics, features. Writes: lines
-/// (write_lines()). \throw InvalidOption, InvalidInput, Cancelled
+/// (write_lines()). \throw InvalidOption, also where epsilon asks for more than 1e7 crossings; InvalidInput,
+/// Cancelled
 TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& options = {},
                         const Progress& progress = {});
 

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <string>
 
 #include "anisomesh/lines.hh"
 #include "anisomesh/properties.hh"
+#include "lines/crossing_model.hh"
 #include "lines/line_placement.hh"
 #include "lines/line_relaxation.hh"
 #include "lines/make_domain.hh"
@@ -20,6 +22,16 @@ constexpr double seed_fraction_by_epsilon = 0.7, cell_tolerance_by_epsilon = 2;
 
 // Near umbilics lines are too close for even gaps to buy anything. [docs/lines.md]
 constexpr size_t passes_without_umbilics = 5, most_passes = 1000;
+
+constexpr double most_crossings = 1e7;  // more than memory holds
+
+void require_drawable(const SurfaceRef& surface, const DensityOptions& density) {
+  const double epsilon = density.epsilon(surface.diagonal(), surface.extent());
+  const double crossings = detail::CrossingModel(surface, density).count(epsilon);
+  if (crossings > most_crossings)
+    throw InvalidOption("epsilon_fraction asks for about " + std::to_string(std::llround(crossings)) +
+                        " crossings of lines, more than memory holds: it must be larger");
+}
 
 Line as_line(const detail::TracedLine& traced, LineKind kind) {
   Line line;
@@ -71,6 +83,7 @@ TraceReport trace_lines(const SurfaceRef& surface, const TraceOptions& given, co
   if (options.seed_fraction == 0)
     options.seed_fraction = std::max(options.stop_fraction, seed_fraction_by_epsilon);
   const auto domain = detail::make_domain(surface, options.density, options.follow);
+  require_drawable(surface, options.density);
   if (!options.relax_passes) options.relax_passes = domain->umbilics().empty() ? passes_without_umbilics : 0;
   report_progress(progress, 0);
   detail::PlacedLines both[2];  // they know nothing of each other: the same as one after the other

@@ -3,18 +3,13 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "anisomesh/flatten.hh"
 #include "anisomesh/properties.hh"
 #include "anisomesh/remesh.hh"
-#include "field/surface_field.hh"
+#include "lines/crossing_model.hh"
 #include "mesher/polygon_attempt.hh"
-#include "numerics/tensor2d.hh"
-#include "numerics/tensor3d.hh"
 #include "remesh/epsilon_search.hh"
 #include "surface/canonical_copy.hh"
 
@@ -36,10 +31,9 @@ constexpr double kEnoughBelow = 0.08, kEnoughAbove = 0.07;
 /// characteristic.
 constexpr double kFacesLeft = 1.1;
 
-/// Lines tell the shape where a chord lies nearer to its arc than this fraction of the radius, with which it
-/// takes seven to go around, all but on so much of the area. For fewer polygons than that the balance takes
-/// vertices out, at most so many of each that is wanted.
-constexpr double kCoarsest = 0.1, kCoarserThere = 0.25, kMostCoarsening = 8;
+/// Where lines for so few would not tell the shape, the balance takes vertices out, of up to so many times as
+/// many.
+constexpr double kMostCoarsening = 8;
 
 constexpr size_t most_wanted = 10'000'000;  // more than memory holds
 
@@ -74,88 +68,6 @@ size_t least_vertices(const OpenMesh::TriConnectivity& mesh) {
   }
   return count;
 }
-
-/// The number of crossings that the density asks for: one for each rectangle of the two spacings.
-class CrossingModel {
- public:
-  CrossingModel(const SurfaceRef& surface, const DensityOptions& options)
-      : options_(options), diagonal_(surface.diagonal()), extent_(surface.extent()) {
-    const auto& mesh = surface.connectivity();
-    patches_.resize(mesh.n_vertices());
-    if (is_flattened(surface))
-      take_plane_tensors(mesh);
-    else
-      take_surface_tensors(mesh);
-    double total = 0, bent = 0;
-    for (const auto f : mesh.faces()) {
-      const auto corners = surface.corners(f);
-      const Vec3d &a = surface.point(corners.vertex[0]), &b = surface.point(corners.vertex[1]),
-                  &c = surface.point(corners.vertex[2]);
-      const double third = ((b - a) % (c - a)).norm() / 6;
-      for (const auto v : corners.vertex) {
-        auto& patch = patches_[static_cast<size_t>(v.idx())];
-        patch.area += third;
-        total += third;
-        bent += third * std::max(std::abs(patch.k_min), std::abs(patch.k_max));
-      }
-    }
-    mean_curvature_ = total > 0 ? bent / total : 0;
-  }
-
-  /// The largest with which lines still tell the shape, in model units; infinite where it is flat.
-  double coarsest_epsilon() const {
-    std::vector<std::pair<double, double>> bent;  // curvature, area
-    double left = 0;
-    for (const Patch& patch : patches_) {
-      bent.emplace_back(std::max(std::abs(patch.k_min), std::abs(patch.k_max)), patch.area);
-      left += kCoarserThere * patch.area;
-    }
-    std::sort(bent.begin(), bent.end(), std::greater<>());
-    for (const auto& [curvature, area] : bent)
-      if ((left -= area) <= 0) return kCoarsest / curvature;
-    return std::numeric_limits<double>::infinity();
-  }
-
-  /// \param epsilon model units
-  double count(double epsilon) const {
-    DensityOptions options = options_;
-    options.epsilon_fraction = epsilon / diagonal_;
-    const Density density(options, diagonal_, extent_, mean_curvature_);
-    double sum = 0;
-    for (const Patch& patch : patches_)
-      sum += patch.area / (density.min_line_spacing(patch.k_min, patch.k_max) *
-                           density.max_line_spacing(patch.k_min, patch.k_max));
-    return sum;
-  }
-
- private:
-  struct Patch {
-    double area = 0, k_min = 0, k_max = 0;
-  };
-
-  void take_plane_tensors(const OpenMesh::TriConnectivity& mesh) {
-    const auto tensor = require_property(mesh, property::tensor2d);
-    for (const auto v : mesh.vertices()) {
-      auto& patch = patches_[static_cast<size_t>(v.idx())];
-      detail::eigenvalues(mesh.property(tensor, v), patch.k_min, patch.k_max);
-    }
-  }
-
-  void take_surface_tensors(const OpenMesh::TriConnectivity& mesh) {
-    const auto tensor = require_property(mesh, property::surface_tensor);
-    const auto normal = require_property(mesh, property::normal);
-    for (const auto v : mesh.vertices()) {
-      auto& patch = patches_[static_cast<size_t>(v.idx())];
-      const detail::TangentFrame frame(mesh.property(normal, v));
-      detail::eigenvalues(detail::in_frame(mesh.property(tensor, v), frame), patch.k_min, patch.k_max);
-    }
-  }
-
-  DensityOptions options_;
-  double diagonal_, extent_;
-  double mean_curvature_ = 0;
-  std::vector<Patch> patches_;
-};
 
 }  // namespace
 
@@ -229,7 +141,7 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   };
   if (wanted == 0) return finish(run(0, 1, true).mesh);
 
-  const CrossingModel model(surface, trace.density);
+  const detail::CrossingModel model(surface, trace.density);
   const size_t least = least_vertices(connectivity);
   OpenMesh::PolyMesh last, best;
   TraceAndMeshReport of_best;
