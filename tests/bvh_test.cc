@@ -1,7 +1,9 @@
 #include "numerics/bvh.hh"
+#include "numerics/self_intersections.hh"
 
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "catch.hh"
 #include "numerics/sampling.hh"
@@ -89,6 +91,41 @@ TEST_CASE("no point of a triangle is nearer than the closest one", "[bvh]") {
       CHECK((q - p).norm() >= distance - 1e-12);
     }
   }
+}
+
+TEST_CASE("the tree finds the triangles that cross one as a look at every triangle does", "[bvh]") {
+  Numbers random;
+  std::vector<Vec3d> points;
+  std::vector<Triangle> triangles;
+  for (int t = 0; t < 300; ++t) {
+    const Vec3d middle = random.point();
+    for (int i = 0; i < 3; ++i) points.push_back(middle + 0.2 * random.point());
+    triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  // One shares a corner by its number, one by its place, one is folded onto another across a side.
+  triangles.push_back({0, 3, 4});
+  points.push_back(points[0]);
+  triangles.push_back({static_cast<int>(points.size()) - 1, 6, 7});
+  points.push_back(points[0] + 0.5 * (points[1] - points[0]) + 0.4 * (points[2] - points[0]));
+  triangles.push_back({0, 1, static_cast<int>(points.size()) - 1});
+  const TriangleTree tree(points, triangles);
+  size_t crossings = 0;
+  for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
+    std::set<int> found, wanted;
+    tree.any_near(tree.box_of(t), [&](int u) {
+      if (u != t && do_cross(tree.corners_of(t), tree.corners_of(u))) found.insert(u);
+      return false;
+    });
+    for (int u = 0; u < static_cast<int>(triangles.size()); ++u)
+      if (u != t && do_cross(tree.corners_of(t), tree.corners_of(u))) wanted.insert(u);
+    CHECK(found == wanted);
+    crossings += found.size();
+  }
+  // By place, as the one whose corner is there twice has it.
+  std::vector<Triangle> by_place = triangles;
+  by_place[301][0] = 0;
+  CHECK(crossings == 2 * self_intersections(points, by_place).size());
+  CHECK(crossings > 20);
 }
 
 TEST_CASE("samples are spread by area and repeat with the seed", "[bvh]") {

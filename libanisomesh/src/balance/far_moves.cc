@@ -74,9 +74,10 @@ void FarMoves::measure(const std::vector<int>& polygon_of) {
   }
 }
 
-/// What triangles cost that were asked for at one place: its patches have most of theirs in common.
+/// What is known of triangles that were asked for at one place: its patches have most of theirs in common.
 struct FarMoves::Place {
   std::map<Triangle, double> known;
+  std::map<Triangle, Error> measured;
   double most = 0;  // more than what is there costs no triangle may
 };
 
@@ -161,6 +162,11 @@ std::vector<Triangle> triangles_of(const std::vector<std::vector<int>>& pieces, 
   return result;
 }
 
+Triangle lowest_first(Triangle t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
+
 Vec3d area_of(const Triangle& t, const PatchMesh& mesh) {
   return cross(mesh.point(t[1]) - mesh.point(t[0]), mesh.point(t[2]) - mesh.point(t[0]));
 }
@@ -193,32 +199,47 @@ size_t folds_of(const ReferenceSurface& reference, const PatchMesh& mesh, const 
 
 }  // namespace
 
+// Of a triangle's own samples. \param t the lowest corner first
+FarMoves::Error FarMoves::own_error(const PatchMesh& mesh, const Triangle& t, Place& place) const {
+  const auto [known, is_new] = place.measured.try_emplace(t);
+  Error& error = known->second;
+  if (!is_new) return error;
+  const Vec3d &a = mesh.point(t[0]), &b = mesh.point(t[1]), &c = mesh.point(t[2]);
+  const double weight = 0.5 * area_of(t, mesh).norm() / area_ / 16;
+  for_each_piece(4, [&](const Vec3d& w) {
+    const double squared = reference_.tree.closest(w[0] * a + w[1] * b + w[2] * c).squared_distance;
+    error.squared += weight * squared;
+    error.largest = std::max(error.largest, squared);
+  });
+  for (const Vec3d& p : {0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)})
+    error.largest = std::max(error.largest, reference_.tree.closest(p).squared_distance);
+  return error;
+}
+
+// Looked at no further once either figure is no less than it may be at most.
 FarMoves::Error FarMoves::error(const PatchMesh& mesh, const PatchMesh::Patch& patch,
-                                const std::vector<std::vector<int>>& pieces) const {
+                                const std::vector<std::vector<int>>& pieces, const Error& most,
+                                Place& place) const {
   Error error;
   const auto triangles = triangles_of(pieces, mesh);
   for (const Triangle& t : triangles) {
-    const Vec3d &a = mesh.point(t[0]), &b = mesh.point(t[1]), &c = mesh.point(t[2]);
-    const double weight = 0.5 * area_of(t, mesh).norm() / area_ / 16;
-    for_each_piece(4, [&](const Vec3d& w) {
-      const double squared = reference_.tree.closest(w[0] * a + w[1] * b + w[2] * c).squared_distance;
-      error.squared += weight * squared;
-      error.largest = std::max(error.largest, squared);
-    });
-    for (const Vec3d& p : {0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)})
-      error.largest = std::max(error.largest, reference_.tree.closest(p).squared_distance);
+    const Error own = own_error(mesh, lowest_first(t), place);
+    error.squared += own.squared;
+    error.largest = std::max(error.largest, own.largest);
+    if (!(error < most)) return error;
   }
   for (const int p : patch.polygons)
     for (const int i : own_[at(p)]) {
-      const Vec3d& place = fit_.matching().samples()[at(i)].place;
+      const Vec3d& there = fit_.matching().samples()[at(i)].place;
       double least = infinite;
       for (const Triangle& t : triangles) {
         const Vec3d &a = mesh.point(t[0]), &b = mesh.point(t[1]), &c = mesh.point(t[2]);
-        const Vec3d w = closest_barycentric(place, a, b, c);
-        least = std::min(least, (w[0] * a + w[1] * b + w[2] * c - place).sqrnorm());
+        const Vec3d w = closest_barycentric(there, a, b, c);
+        least = std::min(least, (w[0] * a + w[1] * b + w[2] * c - there).sqrnorm());
       }
       error.squared += fit_.pairs()[at(i)].weight * least;
       error.largest = std::max(error.largest, least);
+      if (!(error < most)) return error;
     }
   return error;
 }
@@ -231,22 +252,28 @@ PatchMove FarMoves::partition(const PatchMesh& mesh, const PatchMesh::Patch& pat
   for (const int v : patch.ring) ring.push_back(mesh.point(v));
   std::vector<std::vector<int>> before;
   for (const int p : patch.polygons) before.push_back(mesh.polygons()[at(p)]);
-  const auto triangle = [&](size_t i, size_t j, size_t k) {
-    Triangle t{patch.ring[i], patch.ring[j], patch.ring[k]};
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    const auto [known, is_new] = place.known.try_emplace(t, 0);
-    if (is_new) known->second = cost(ring[i], ring[j], ring[k], place.most);
+  const auto known_cost = [&](const Triangle& t) {
+    const auto [known, is_new] = place.known.try_emplace(lowest_first(t), 0);
+    if (is_new) known->second = cost(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]), place.most);
     return known->second;
+  };
+  double now_costs = 0;
+  for (const auto& piece : before) now_costs += piece.size() == 3 ? triangle_cost_ : 0;
+  for (const Triangle& t : triangles_of(before, mesh)) now_costs += known_cost(t);
+  const auto triangle = [&](size_t i, size_t j, size_t k) {
+    return known_cost({patch.ring[i], patch.ring[j], patch.ring[k]});
   };
   const auto free = [](size_t, size_t) { return 0.0; };
   PatchPieces found =
-      partition_ring({triangle, free, triangle_cost_, quads_}, ring, mesh.forbidden_chords(patch));
+      partition_ring({triangle, free, triangle_cost_, quads_, now_costs}, ring, mesh.forbidden_chords(patch));
   if (!std::isfinite(found.cost)) return move;
   for (auto& piece : found.pieces)
     for (int& i : piece) i = patch.ring[at(i)];
   if (!mesh.may_replace(patch, found.pieces)) return move;
-  const Error old = error(mesh, patch, before), now = error(mesh, patch, found.pieces);
-  if (!(now.largest < much_less * much_less * old.largest && now.squared < old.squared)) return move;
+  const Error old = error(mesh, patch, before, {infinite, infinite}, place),
+              most{old.squared, much_less * much_less * old.largest};
+  const Error now = error(mesh, patch, found.pieces, most, place);
+  if (!(now < most)) return move;
   const size_t folded = folds_of(reference_, mesh, patch, found.pieces);
   if (folded > 0 && folded > folds_of(reference_, mesh, patch, before)) return move;
   move.patch = patch;

@@ -24,14 +24,16 @@ class FarMoves {
  private:
   struct Error {
     double squared = 0, largest = 0;
+    bool operator<(const Error& o) const { return squared < o.squared && largest < o.largest; }
   };
   struct Place;
   void measure(const std::vector<int>& polygon_of);
   std::vector<std::vector<int>> places(const PatchMesh& mesh) const;
   PatchMove partition(const PatchMesh& mesh, const PatchMesh::Patch& patch, Place& place) const;
   double cost(const Vec3d& a, const Vec3d& b, const Vec3d& c, double most) const;
+  Error own_error(const PatchMesh& mesh, const Triangle& t, Place& place) const;
   Error error(const PatchMesh& mesh, const PatchMesh::Patch& patch,
-              const std::vector<std::vector<int>>& pieces) const;
+              const std::vector<std::vector<int>>& pieces, const Error& most, Place& place) const;
 
   const ReferenceSurface& reference_;
   const FitState& fit_;

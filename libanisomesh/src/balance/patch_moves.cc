@@ -19,6 +19,7 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double worth_a_look = 1.2;    // mean errors: better polygons are left alone
 constexpr double tried_removals = 0.3;  // of all vertices, those that seem cheapest
 constexpr double worth_adding = 2;      // mean errors: there a vertex may be added
@@ -251,11 +252,11 @@ PatchMove PatchMoves::partition(const PatchMesh& mesh, const PatchMesh::Patch& p
   if (keeps_vertices) costs.limit = std::max(costs.limit, s.worst);
   const PatchView view(s.normal, s.samples, s.tensor, costs);
   const double now = s.error + s.costs + inner_chords(mesh, patch, view);
-  PatchPieces found = partition_ring(view, s.ring, s.forbidden);
+  const double most = keeps_vertices ? now - worth_parting * mean_error_ : infinite;
+  PatchPieces found = partition_ring(view, s.ring, s.forbidden, most);
   if (!std::isfinite(found.cost)) return move;
   move.patch = patch;
   move.gain = now - found.cost;
-  if (keeps_vertices && !(move.gain > worth_parting * mean_error_)) return move;
   for (auto& piece : found.pieces) {
     for (int& i : piece) i = patch.ring[at(i)];
     move.pieces.push_back(std::move(piece));
@@ -269,7 +270,7 @@ PatchMove PatchMoves::addition(const PatchMesh& mesh, const PatchMesh::Patch& pa
   const Situation s = look_at(mesh, patch);
   if (!s.possible || s.samples.empty()) return move;
   PatchCosts costs = costs_;
-  costs.limit = std::numeric_limits<double>::infinity();
+  costs.limit = infinite;
   const PatchView view(s.normal, s.samples, s.tensor, costs);
   size_t worst = 0;
   double largest = -1;
@@ -316,10 +317,8 @@ bool PatchMoves::is_across(const PatchMesh& mesh, const PatchMesh::Patch& patch)
 std::vector<PatchMove> PatchMoves::partitions(const PatchMesh& mesh,
                                               const std::vector<std::vector<int>>& groups) const {
   std::vector<PatchMove> moves(groups.size());
-  tbb::parallel_for(size_t{0}, groups.size(), [&](size_t i) {
-    PatchMove move = partition(mesh, mesh.join(groups[i]), true);
-    if (move.gain > worth_parting * mean_error_) moves[i] = std::move(move);
-  });
+  tbb::parallel_for(size_t{0}, groups.size(),
+                    [&](size_t i) { moves[i] = partition(mesh, mesh.join(groups[i]), true); });
   return moves;
 }
 
@@ -367,7 +366,7 @@ double PatchMoves::guess(const PatchMesh& mesh, const PatchMesh::Patch& star, in
     normal += cross(a - mesh.point(vertex), b - mesh.point(vertex));
   }
   const double length = normal.norm();
-  if (!(length > 0)) return std::numeric_limits<double>::infinity();
+  if (!(length > 0)) return infinite;
   const double height = ((mesh.point(vertex) - middle) | normal) / length;
   return length * height * height;
 }
@@ -378,8 +377,7 @@ std::vector<PatchMove> PatchMoves::removals(const PatchMesh& mesh, bool of_all) 
   std::vector<std::pair<double, int>> guesses(n);
   tbb::parallel_for(size_t{0}, n, [&](size_t v) {
     stars[v] = mesh.star(static_cast<int>(v));
-    guesses[v] = {stars[v].ring.empty() ? std::numeric_limits<double>::infinity()
-                                        : guess(mesh, stars[v], static_cast<int>(v)),
+    guesses[v] = {stars[v].ring.empty() ? infinite : guess(mesh, stars[v], static_cast<int>(v)),
                   static_cast<int>(v)};
   });
   std::sort(guesses.begin(), guesses.end());
@@ -402,7 +400,7 @@ std::vector<PatchMove> PatchMoves::additions(const PatchMesh& mesh, bool lacking
 std::vector<PatchMove> PatchMoves::additions_beyond(const PatchMesh& mesh, double distance) const {
   std::vector<char> wanted;
   for (const double worst : worst_) wanted.push_back(worst > distance);
-  return additions_to(mesh, wanted, -std::numeric_limits<double>::infinity());
+  return additions_to(mesh, wanted, -infinite);
 }
 
 std::vector<PatchMove> PatchMoves::additions_to(const PatchMesh& mesh, const std::vector<char>& wanted,

@@ -74,11 +74,17 @@ double PatchView::triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, const
   return sum;
 }
 
-void PatchView::samples_left_of(const Vec3d& from, const Vec3d& to, SampleSet* set) const {
+void PatchView::part_samples(const Vec3d& from, const Vec3d& to, SampleSet* left, SampleSet* right) const {
   const Place p = seen(from), q = seen(to);
-  for (size_t begin = 0; begin < places_.size(); begin += 64, ++set) {
+  for (size_t begin = 0; begin < places_.size(); begin += 64, ++left, ++right) {
     const size_t n = std::min<size_t>(64, places_.size() - begin);
-    for (size_t i = 0; i < n; ++i) *set |= static_cast<SampleSet>(!(side(p, q, places_[begin + i]) < 0)) << i;
+    SampleSet not_right = 0, not_left = 0;
+    for (size_t i = 0; i < n; ++i) {
+      const double to_left = side(p, q, places_[begin + i]);
+      not_right |= static_cast<SampleSet>(to_left >= 0) << i;
+      not_left |= static_cast<SampleSet>(to_left <= 0) << i;
+    }
+    *left = not_right, *right = not_left;
   }
 }
 
@@ -97,12 +103,6 @@ bool is_fair_quad(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d
   const Vec3d n = first ? cross(b - a, c - a) : cross(b - a, d - a),
               m = first ? cross(c - a, d - a) : cross(c - b, d - b);
   return (n | m) > least_bend * n.norm() * m.norm() && PolygonJudge::is_convex({a, b, c, d});
-}
-
-double PatchView::quad(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) const {
-  if (!is_fair_quad(a, b, c, d)) return infinite;
-  return (c - a).sqrnorm() <= (d - b).sqrnorm() ? triangle(a, b, c) + triangle(a, c, d)
-                                                : triangle(a, b, d) + triangle(b, c, d);
 }
 
 Vec3d PatchView::best_middle(const Vec3d& start, const std::vector<Vec3d>& ring) const {
@@ -157,7 +157,10 @@ class RingProgram {
   PatchPieces run() {
     PatchPieces result;
     result.cost = cost(0, n_ - 1);
-    if (result.cost < infinite) collect(0, n_ - 1, result.pieces);
+    if (result.cost < costs_.most)
+      collect(0, n_ - 1, result.pieces);
+    else
+      result.cost = infinite;
     return result;
   }
 
@@ -185,7 +188,7 @@ class RingProgram {
     const bool inner = i != 0 || j + 1 != n_;
     double& known = best_[i * n_ + j];
     if (known >= 0) return known;
-    double best = infinite;
+    double best = costs_.most;  // what costs more is of no use, whatever is beside it
     if (may_join(i, j))
       for (size_t k = i + 1; k < j; ++k) {
         if (!may_join(i, k)) continue;
@@ -231,7 +234,7 @@ class RingProgram {
   std::vector<double> triangle_;
 };
 
-/// Of the samples, those to the left of each chord of a ring.
+/// Of the samples, those to the left of each chord of a ring, from corner to corner.
 class LeftOfChords {
  public:
   LeftOfChords(const PatchView& view, const std::vector<Vec3d>& ring)
@@ -241,13 +244,18 @@ class LeftOfChords {
         sets_(ring.size() * ring.size() * view.set_size(), 0) {}
 
   const SampleSet* operator()(size_t from, size_t to) {
-    const size_t chord = from * ring_.size() + to;
-    SampleSet* set = sets_.data() + chord * view_.set_size();
-    if (!known_[chord]) view_.samples_left_of(ring_[from], ring_[to], set), known_[chord] = 1;
-    return set;
+    if (!known_[chord(from, to)]) {
+      const size_t a = std::min(from, to), b = std::max(from, to);
+      view_.part_samples(ring_[a], ring_[b], set(a, b), set(b, a));
+      known_[chord(a, b)] = known_[chord(b, a)] = 1;
+    }
+    return set(from, to);
   }
 
  private:
+  size_t chord(size_t from, size_t to) const { return from * ring_.size() + to; }
+  SampleSet* set(size_t from, size_t to) { return sets_.data() + chord(from, to) * view_.set_size(); }
+
   const PatchView& view_;
   const std::vector<Vec3d>& ring_;
   std::vector<char> known_;
@@ -262,13 +270,13 @@ PatchPieces partition_ring(const RingCosts& costs, const std::vector<Vec3d>& rin
 }
 
 PatchPieces partition_ring(const PatchView& view, const std::vector<Vec3d>& ring,
-                           const std::vector<char>& forbidden) {
+                           const std::vector<char>& forbidden, double most) {
   LeftOfChords left(view, ring);
   const auto triangle = [&](size_t i, size_t j, size_t k) {
     return view.triangle(ring[i], ring[j], ring[k], left(i, j), left(j, k), left(k, i));
   };
   const auto chord = [&](size_t i, size_t j) { return view.chord(ring[i], ring[j]); };
-  return partition_ring({triangle, chord, view.costs().triangle, view.costs().quads}, ring, forbidden);
+  return partition_ring({triangle, chord, view.costs().triangle, view.costs().quads, most}, ring, forbidden);
 }
 
 PatchPieces partition_around(const PatchView& view, const std::vector<Vec3d>& ring, const Vec3d& middle) {
@@ -276,11 +284,18 @@ PatchPieces partition_around(const PatchView& view, const std::vector<Vec3d>& ri
   const int center = static_cast<int>(n);
   const auto place = [&](size_t i) -> const Vec3d& { return ring[i % n]; };
   const auto number = [&](size_t i) { return static_cast<int>(i % n); };
-  std::vector<double> triangle(n), quad(n);
+  std::vector<double> fan(n), triangle(n), quad(n);
+  for (size_t i = 0; i < n; ++i) fan[i] = view.triangle(middle, place(i), place(i + 1));
   for (size_t i = 0; i < n; ++i) {
-    triangle[i] =
-        view.triangle(middle, place(i), place(i + 1)) + view.costs().triangle + view.chord(middle, place(i));
-    quad[i] = view.quad(middle, place(i), place(i + 1), place(i + 2)) + view.chord(middle, place(i));
+    const double chord = view.chord(middle, place(i));
+    triangle[i] = fan[i] + view.costs().triangle + chord;
+    const Vec3d &a = place(i), &b = place(i + 1), &c = place(i + 2);
+    if (!is_fair_quad(middle, a, b, c))
+      quad[i] = infinite;
+    else if ((b - middle).sqrnorm() <= (c - a).sqrnorm())
+      quad[i] = fan[i] + fan[(i + 1) % n] + chord;
+    else
+      quad[i] = view.triangle(middle, a, c) + view.triangle(a, b, c) + chord;
   }
   PatchPieces best;
   best.cost = infinite;

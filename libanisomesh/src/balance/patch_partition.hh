@@ -48,9 +48,8 @@ class PatchView {
   double triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, const SampleSet* ab, const SampleSet* bc,
                   const SampleSet* ca) const;
   size_t set_size() const { return (samples_.size() + 63) / 64; }
-  void samples_left_of(const Vec3d& from, const Vec3d& to, SampleSet* set) const;
-  /// The same of a quad split along its shorter diagonal; infinite where it is concave or bent too far.
-  double quad(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) const;
+  /// To either side of a chord, those on it to both. \param left, right are empty
+  void part_samples(const Vec3d& from, const Vec3d& to, SampleSet* left, SampleSet* right) const;
   const std::vector<PatchSample>& samples() const { return samples_; }
   /// Moves the middle of a fan around it to where its triangles' error is least, and says what that is.
   Vec3d best_middle(const Vec3d& start, const std::vector<Vec3d>& ring) const;
@@ -88,13 +87,15 @@ struct RingCosts {
   std::function<double(size_t, size_t)> chord;             ///< inside the ring
   double each_triangle = 0;
   bool quads = true;
+  double most = std::numeric_limits<double>::infinity();  ///< partitions that cost as much are not looked for
 };
 
 /// \param forbidden n * n, pairs of the ring that must not be joined
 PatchPieces partition_ring(const RingCosts& costs, const std::vector<Vec3d>& ring,
                            const std::vector<char>& forbidden);
 PatchPieces partition_ring(const PatchView& view, const std::vector<Vec3d>& ring,
-                           const std::vector<char>& forbidden);
+                           const std::vector<char>& forbidden,
+                           double most = std::numeric_limits<double>::infinity());
 
 /// Pieces around a vertex in the middle.
 PatchPieces partition_around(const PatchView& view, const std::vector<Vec3d>& ring, const Vec3d& middle);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "balance/patch_partition.hh"
+#include "numerics/self_intersections.hh"
 
 namespace anisomesh::detail {
 
@@ -22,12 +23,6 @@ constexpr double few_share = 0.05;
 /// So many pairs for each triangle are of a surface that is crumpled all over: each is not worth knowing.
 constexpr size_t crumpled = 10;
 
-bool overlap(const Box& a, const Box& b) {
-  for (int i = 0; i < 3; ++i)
-    if (a.low[i] > b.high[i] || b.low[i] > a.high[i]) return false;
-  return true;
-}
-
 /// Pairs that cross; none are told of where there are too many.
 std::vector<std::pair<int, int>> pairs_of(const PolygonSoup& soup) {
   const size_t most = few_pairs + crumpled * soup.triangles.size();
@@ -36,29 +31,38 @@ std::vector<std::pair<int, int>> pairs_of(const PolygonSoup& soup) {
   return pairs;
 }
 
-/// Boxes of the surface's own triangles that cross others.
-std::vector<Box> crossings_of(const SurfaceRef& surface) {
-  std::vector<Vec3d> points;
-  std::vector<std::vector<int>> faces;
-  for (const auto v : surface.connectivity().vertices()) points.push_back(surface.point(v));
-  for (const auto f : surface.connectivity().faces()) {
-    faces.emplace_back();
-    for (const auto v : surface.corners(f).vertex) faces.back().push_back(v.idx());
+/// Where the surface crosses itself. Looked at where it is asked for, as that is in few places.
+class OwnCrossings {
+ public:
+  explicit OwnCrossings(const TriangleTree& tree) : tree_(tree), known_(tree.triangles().size(), unknown) {}
+
+  /// Whether a triangle that meets what two boxes have in common crosses another.
+  bool has_one_at(Box a, const Box& b) {
+    a.low.maximize(b.low);
+    a.high.minimize(b.high);
+    return tree_.any_near(a, [&](int t) { return crosses(t); });
   }
-  const PolygonSoup soup(std::move(points), std::move(faces), FaceDiagonal::shorter);
-  std::vector<Box> boxes;
-  for (const auto& pair : pairs_of(soup))
-    for (const int t : {pair.first, pair.second}) {
-      boxes.emplace_back();
-      for (const int v : soup.triangles[at(t)]) boxes.back().add(soup.points[at(v)]);
-    }
-  return boxes;
-}
+
+ private:
+  enum Known : char { unknown, no, yes };
+  bool crosses(int t) {
+    char& known = known_[at(t)];
+    if (known != unknown) return known == yes;
+    const auto corners = tree_.corners_of(t);
+    const bool any = tree_.any_near(tree_.box_of(t),
+                                    [&](int u) { return u != t && do_cross(corners, tree_.corners_of(u)); });
+    known = any ? yes : no;
+    return any;
+  }
+
+  const TriangleTree& tree_;
+  std::vector<char> known_;
+};
 
 class Uncrosser {
  public:
   Uncrosser(const SurfaceRef& surface, const FaceJudge& judge, const OpenMesh::PolyMesh& result)
-      : surface_(surface), judge_(judge), mesh_(result) {}
+      : surface_(surface), judge_(judge), mesh_(result), of_surface_(judge.reference().tree) {}
 
   /// \return whether anything has changed
   bool run();
@@ -67,8 +71,8 @@ class Uncrosser {
  private:
   PolygonSoup soup_of(const Polygons& polygons) const;
   Box box_of(const std::vector<int>& polygon) const;
-  bool is_of_surface(const std::array<int, 2>& pair) const;
-  std::vector<std::array<int, 2>> pairs() const;
+  bool is_of_surface(const std::array<int, 2>& pair);
+  std::vector<std::array<int, 2>> pairs();
   Polygons at_numbers(const std::vector<int>& numbers) const;
   Polygons beside(const std::vector<int>& numbers, const Polygons& own) const;
   size_t crossings(const Polygons& changed, const Polygons& others) const;
@@ -81,7 +85,7 @@ class Uncrosser {
   const SurfaceRef& surface_;
   const FaceJudge& judge_;
   PatchMesh mesh_;
-  std::vector<Box> of_surface_;
+  OwnCrossings of_surface_;
 };
 
 /// With the vertices of these polygons only.
@@ -104,15 +108,12 @@ Box Uncrosser::box_of(const std::vector<int>& polygon) const {
   return box;
 }
 
-bool Uncrosser::is_of_surface(const std::array<int, 2>& pair) const {
-  if (of_surface_.empty()) return false;
-  const Box a = box_of(mesh_.polygons()[at(pair[0])]), b = box_of(mesh_.polygons()[at(pair[1])]);
-  return std::any_of(of_surface_.begin(), of_surface_.end(),
-                     [&](const Box& box) { return overlap(box, a) && overlap(box, b); });
+bool Uncrosser::is_of_surface(const std::array<int, 2>& pair) {
+  return of_surface_.has_one_at(box_of(mesh_.polygons()[at(pair[0])]), box_of(mesh_.polygons()[at(pair[1])]));
 }
 
 /// Polygons that cross where the surface does not.
-std::vector<std::array<int, 2>> Uncrosser::pairs() const {
+std::vector<std::array<int, 2>> Uncrosser::pairs() {
   Polygons polygons;
   std::vector<int> number;
   for (size_t p = 0; p < mesh_.polygons().size(); ++p) {
@@ -124,11 +125,13 @@ std::vector<std::array<int, 2>> Uncrosser::pairs() const {
   std::vector<std::array<int, 2>> result;
   for (const auto& [t, u] : pairs_of(soup)) {
     const int p = soup.face_of[at(t)], q = soup.face_of[at(u)];
-    const std::array<int, 2> pair{number[at(p)], number[at(q)]};
-    if (!is_of_surface(pair)) result.push_back(pair);
+    result.push_back({number[at(p)], number[at(q)]});
   }
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
+  result.erase(
+      std::remove_if(result.begin(), result.end(), [&](const auto& pair) { return is_of_surface(pair); }),
+      result.end());
   return result;
 }
 
@@ -147,7 +150,7 @@ Polygons Uncrosser::beside(const std::vector<int>& numbers, const Polygons& own)
     const auto& polygon = mesh_.polygons()[p];
     if (polygon.empty() || std::find(numbers.begin(), numbers.end(), static_cast<int>(p)) != numbers.end())
       continue;
-    if (overlap(box, box_of(polygon))) result.push_back(polygon);
+    if (box.meets(box_of(polygon))) result.push_back(polygon);
   }
   return result;
 }
@@ -247,11 +250,6 @@ bool Uncrosser::move_corners(int polygon) {
 bool Uncrosser::run() {
   bool any = false;
   auto found = pairs();
-  if (found.empty()) return false;
-  of_surface_ = crossings_of(surface_);
-  found.erase(
-      std::remove_if(found.begin(), found.end(), [&](const auto& pair) { return is_of_surface(pair); }),
-      found.end());
   if (static_cast<double>(found.size()) >
       few_pairs + few_share * static_cast<double>(mesh_.polygons().size()))
     return false;

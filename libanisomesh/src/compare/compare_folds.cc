@@ -49,24 +49,24 @@ std::vector<Vec3d> samples_of(const PolygonSoup& result, size_t face) {
   return samples;
 }
 
-/// Largest distance of a face's samples from the reference, and whether most of them have something nearest
-/// that faces elsewhere.
-struct FaceFeet {
-  double distance = 0;
-  bool suspicious = false;
-};
-
-FaceFeet feet_of(const ReferenceSurface& reference, const PolygonSoup& result, size_t face) {
+/// Whether most of a face's samples have something nearest that faces elsewhere.
+bool is_suspicious(const ReferenceSurface& reference, const PolygonSoup& result, size_t face) {
   const std::vector<Vec3d> samples = samples_of(result, face);
-  size_t against = 0;
-  FaceFeet feet;
+  size_t against = 0, right = 0;
   for (const Vec3d& p : samples) {
-    const ClosestPoint nearest = reference.tree.closest(p);
-    feet.distance = std::max(feet.distance, std::sqrt(nearest.squared_distance));
-    against += cosine(reference, nearest.triangle, result.normals[face]) > at_right_angles ? 0 : 1;
+    const int nearest = reference.tree.closest(p).triangle;
+    ++(cosine(reference, nearest, result.normals[face]) > at_right_angles ? right : against);
+    if (2 * right >= samples.size()) return false;
   }
-  feet.suspicious = 2 * against > samples.size();
-  return feet;
+  return 2 * against > samples.size();
+}
+
+/// Largest distance of a face's samples from the reference.
+double distance_of(const ReferenceSurface& reference, const PolygonSoup& result, size_t face) {
+  double squared = 0;
+  for (const Vec3d& p : samples_of(result, face))
+    squared = std::max(squared, reference.tree.closest(p).squared_distance);
+  return std::sqrt(squared);
 }
 
 /// Whether the face is against the reference at most of its samples.
@@ -99,37 +99,61 @@ std::vector<InnerEdge> inner_edges(const PolygonSoup& result) {
   return edges;
 }
 
+/// Of the faces that are asked for: suspicious ones, and those at sharp edges. A face may be as near the
+/// wrong side of a thin sheet by chance; its neighbours are not.
+std::vector<FoldReach> reaches_of(const ReferenceSurface& reference, const PolygonSoup& result,
+                                  std::vector<char> asked, const std::vector<InnerEdge>& sharp,
+                                  const std::vector<InnerEdge>& edges) {
+  const size_t n = result.faces.size();
+  for (const InnerEdge& edge : sharp)
+    asked[static_cast<size_t>(edge.left)] = asked[static_cast<size_t>(edge.right)] = 1;
+  std::vector<char> measured = asked;
+  for (const InnerEdge& edge : edges) {
+    if (asked[static_cast<size_t>(edge.left)]) measured[static_cast<size_t>(edge.right)] = 1;
+    if (asked[static_cast<size_t>(edge.right)]) measured[static_cast<size_t>(edge.left)] = 1;
+  }
+  std::vector<double> distance(n, 0);
+  tbb::parallel_for(size_t{0}, n, [&](size_t face) {
+    if (measured[face]) distance[face] = distance_of(reference, result, face);
+  });
+  std::vector<double> largest = distance;
+  for (const InnerEdge& edge : edges) {
+    const auto left = static_cast<size_t>(edge.left), right = static_cast<size_t>(edge.right);
+    largest[left] = std::max(largest[left], distance[right]);
+    largest[right] = std::max(largest[right], distance[left]);
+  }
+  std::vector<FoldReach> reach;
+  for (size_t face = 0; face < n; ++face) reach.emplace_back(result.diameters[face], largest[face]);
+  return reach;
+}
+
 }  // namespace
 
 std::vector<char> folded_faces(const ReferenceSurface& reference, const PolygonSoup& result) {
   const size_t n = result.faces.size();
-  std::vector<char> folded(n, 0);
+  std::vector<char> folded(n, 0), suspicious(n, 0);
   const std::vector<char> degenerate = degenerate_faces(result);
-  std::vector<FaceFeet> feet(n);
-  tbb::parallel_for(size_t{0}, n, [&](size_t face) { feet[face] = feet_of(reference, result, face); });
-  const std::vector<InnerEdge> edges = inner_edges(result);
-  // A face may be as near the wrong side of a thin sheet by chance; its neighbours are not.
-  std::vector<double> distance;
-  for (const FaceFeet& f : feet) distance.push_back(f.distance);
-  for (const InnerEdge& edge : edges) {
-    const auto left = static_cast<size_t>(edge.left), right = static_cast<size_t>(edge.right);
-    distance[left] = std::max(distance[left], feet[right].distance);
-    distance[right] = std::max(distance[right], feet[left].distance);
-  }
-  const auto reach_of = [&](size_t face) { return FoldReach(result.diameters[face], distance[face]); };
   tbb::parallel_for(size_t{0}, n, [&](size_t face) {
-    if (degenerate[face] || !feet[face].suspicious) return;
-    folded[face] = is_turned_over(reference, result, face, reach_of(face)) ? 1 : 0;
+    suspicious[face] = !degenerate[face] && is_suspicious(reference, result, face);
   });
+  const std::vector<InnerEdge> edges = inner_edges(result);
+  std::vector<InnerEdge> sharp;
   for (const InnerEdge& edge : edges) {
     const auto left = static_cast<size_t>(edge.left), right = static_cast<size_t>(edge.right);
-    if (degenerate[left] || degenerate[right]) continue;
-    if (dot(result.normals[left], result.normals[right]) > folded_cosine) continue;
+    if (!degenerate[left] && !degenerate[right] &&
+        !(dot(result.normals[left], result.normals[right]) > folded_cosine))
+      sharp.push_back(edge);
+  }
+  const std::vector<FoldReach> reach = reaches_of(reference, result, suspicious, sharp, edges);
+  tbb::parallel_for(size_t{0}, n, [&](size_t face) {
+    if (suspicious[face]) folded[face] = is_turned_over(reference, result, face, reach[face]) ? 1 : 0;
+  });
+  for (const InnerEdge& edge : sharp) {
     const Vec3d middle =
         0.5 * (result.points[static_cast<size_t>(edge.from)] + result.points[static_cast<size_t>(edge.to)]);
     // The reference may be as sharp here (the rim of an ear): then it shows both sides within reach.
-    for (const size_t face : {left, right})
-      if (is_against(reference, middle, result.normals[face], reach_of(face))) folded[face] = 1;
+    for (const auto face : {static_cast<size_t>(edge.left), static_cast<size_t>(edge.right)})
+      if (is_against(reference, middle, result.normals[face], reach[face])) folded[face] = 1;
   }
   return folded;
 }

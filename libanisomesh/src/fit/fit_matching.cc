@@ -167,6 +167,7 @@ bool FitMatching::nearest(const Vec3d& place, const Vec3d& normal, const FitTria
     const double within = reach + triangles.radius[at(p)];
     if ((place - triangles.centre[at(p)]).sqrnorm() >= within * within) return;
     for (int t = triangles.first[at(p)]; t < triangles.first[at(p) + 1]; ++t) {
+      if (!(triangles.box[at(t)].squared_distance(place) < best)) continue;
       if (!any_side && !((triangles.normal[at(t)] | normal) > 0)) continue;
       const Triangle& corner = triangles.corner[at(t)];
       const Vec3d &a = points[at(corner[0])], &b = points[at(corner[1])], &c = points[at(corner[2])];

@@ -117,6 +117,8 @@ FitTriangles::FitTriangles(const FitMesh& mesh, const std::vector<Vec3d>& points
                       mesh.side(p, corner.back()[2], corner.back()[0])});
       normal.push_back(twice > 0 ? n / twice : Vec3d(0, 0, 0));
       area.push_back(0.5 * twice);
+      box.emplace_back();
+      for (const Vec3d& x : {a, b, c}) box.back().add(x);
       const auto over = [&](size_t k, const Vec3d& along) {
         if (side.back()[k] < 0) return no_side;
         return twice > 0 ? twice / along.norm() : 0;

@@ -55,7 +55,8 @@ struct FitTriangles {
   std::vector<Triangle> side;  ///< of the mesh, from each corner to the next; -1: a diagonal
   std::vector<Vec3d> normal;   ///< unit; zero without area
   std::vector<double> area;
-  std::vector<Vec3d> height;   ///< over the side opposite to each corner; huge where it is a diagonal
+  std::vector<Vec3d> height;  ///< over the side opposite to each corner; huge where it is a diagonal
+  std::vector<Box> box;
   std::vector<Vec3d> centre;   ///< of each polygon
   std::vector<double> radius;  ///< of the ball around its centre that holds the polygon
 };

@@ -53,21 +53,20 @@ BoxTree::BoxTree(const std::vector<Box>& boxes) : items_(boxes.size()) {
   if (!boxes.empty()) build(boxes, centres, 0, static_cast<int>(boxes.size()));
 }
 
-void BoxTree::build(const std::vector<Box>& boxes, const std::vector<Vec3d>& centres, int begin, int end) {
+Box BoxTree::build(const std::vector<Box>& boxes, const std::vector<Vec3d>& centres, int begin, int end) {
   const size_t self = nodes_.size();
   nodes_.emplace_back();
-  Box spread;
-  for (int i = begin; i < end; ++i) {
-    const auto item = static_cast<size_t>(items_[static_cast<size_t>(i)]);
-    nodes_[self].box.add(boxes[item]);
-    spread.add(centres[item]);
-  }
+  const auto item = [&](int i) { return static_cast<size_t>(items_[static_cast<size_t>(i)]); };
   if (end - begin <= items_a_leaf) {
     std::sort(items_.begin() + begin, items_.begin() + end);
-    nodes_[self].first = begin;
-    nodes_[self].count = end - begin;
-    return;
+    Node& leaf = nodes_[self];
+    leaf.first = begin;
+    leaf.count = end - begin;
+    for (int i = begin; i < end; ++i) leaf.box.add(boxes[item(i)]);
+    return leaf.box;
   }
+  Box spread;
+  for (int i = begin; i < end; ++i) spread.add(centres[item(i)]);
   const Vec3d extent = spread.high - spread.low;
   const int axis = extent[0] >= extent[1] && extent[0] >= extent[2] ? 0 : extent[1] >= extent[2] ? 1 : 2;
   const int middle = begin + (end - begin) / 2;
@@ -76,9 +75,10 @@ void BoxTree::build(const std::vector<Box>& boxes, const std::vector<Vec3d>& cen
     const double at_a = centres[static_cast<size_t>(a)][axis], at_b = centres[static_cast<size_t>(b)][axis];
     return at_a < at_b || (at_a == at_b && a < b);
   });
-  build(boxes, centres, begin, middle);
+  Box box = build(boxes, centres, begin, middle);
   nodes_[self].first = static_cast<int>(nodes_.size());
-  build(boxes, centres, middle, end);
+  box.add(build(boxes, centres, middle, end));
+  return nodes_[self].box = box;
 }
 
 Vec3d closest_barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {

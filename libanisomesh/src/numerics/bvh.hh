@@ -23,6 +23,12 @@ struct Box {
     low.minimize(other.low);
     high.maximize(other.high);
   }
+  /// Whether the two have a point in common.
+  bool meets(const Box& other) const {
+    for (int i = 0; i < 3; ++i)
+      if (low[i] > other.high[i] || other.low[i] > high[i]) return false;
+    return true;
+  }
   /// Squared distance of a point from the box; 0 inside.
   double squared_distance(const Vec3d& p) const {
     double sum = 0;
@@ -68,6 +74,24 @@ class BoxTree {
     }
   }
 
+  /// Whether `accept` is true of an item of a leaf that meets a box.
+  template <class Accept>
+  bool any_near(const Box& box, Accept accept) const {
+    Stack stack;
+    if (!nodes_.empty()) stack.push(0, 0);
+    while (!stack.empty()) {
+      const int index = stack.pop().first;
+      const Node& node = nodes_[static_cast<size_t>(index)];
+      if (!node.box.meets(box)) continue;
+      for (int i = 0; i < node.count; ++i)
+        if (accept(items_[static_cast<size_t>(node.first) + static_cast<size_t>(i)])) return true;
+      if (node.count > 0) continue;
+      stack.push(node.first, 0);
+      stack.push(index + 1, 0);
+    }
+    return false;
+  }
+
  private:
   struct Node {
     Box box;
@@ -83,7 +107,7 @@ class BoxTree {
     std::pair<int, double> pop() { return entries[static_cast<size_t>(--size)]; }
   };
 
-  void build(const std::vector<Box>& boxes, const std::vector<Vec3d>& centres, int begin, int end);
+  Box build(const std::vector<Box>& boxes, const std::vector<Vec3d>& centres, int begin, int end);
 
   std::vector<Node> nodes_;
   std::vector<int> items_;
@@ -122,6 +146,23 @@ class TriangleTree {
     });
     if (best.triangle >= 0) best.squared_distance = least;
     return best;
+  }
+
+  /// Whether `accept`(index) is true of a triangle whose box meets another.
+  template <class Accept>
+  bool any_near(const Box& box, Accept accept) const {
+    return boxes_.any_near(box, [&](int t) { return box_of(t).meets(box) && accept(t); });
+  }
+  Box box_of(int triangle) const {
+    Box box;
+    for (const int corner : triangles_[static_cast<size_t>(triangle)])
+      box.add(points_[static_cast<size_t>(corner)]);
+    return box;
+  }
+  std::array<Vec3d, 3> corners_of(int triangle) const {
+    const Triangle& corner = triangles_[static_cast<size_t>(triangle)];
+    return {points_[static_cast<size_t>(corner[0])], points_[static_cast<size_t>(corner[1])],
+            points_[static_cast<size_t>(corner[2])]};
   }
 
   const std::vector<Vec3d>& points() const { return points_; }

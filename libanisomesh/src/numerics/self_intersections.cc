@@ -75,4 +75,15 @@ std::vector<std::pair<int, int>> self_intersections(const std::vector<Vec3d>& po
   return found;
 }
 
+bool do_cross(const std::array<Vec3d, 3>& first, const std::array<Vec3d, 3>& second) {
+  std::vector<Triangle> triangles{{0, 1, 2}, {3, 4, 5}};
+  Soup soup{{}, triangles};
+  for (const auto* corners : {&first, &second})
+    for (const Vec3d& p : *corners) soup.points.emplace_back(p[0], p[1], p[2]);
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t k = 0; k < 3; ++k)
+      if (first[k] == second[i]) triangles[1][i] = static_cast<int>(k);
+  return !soup.is_degenerate(0) && !soup.is_degenerate(1) && soup.have_overlap(0, 1);
+}
+
 }  // namespace anisomesh::detail

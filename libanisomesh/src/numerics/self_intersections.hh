@@ -1,6 +1,7 @@
 // Where a triangle soup crosses or overlaps itself.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -16,5 +17,8 @@ namespace anisomesh::detail {
 std::vector<std::pair<int, int>> self_intersections(const std::vector<Vec3d>& points,
                                                     const std::vector<Triangle>& triangles,
                                                     size_t most = std::numeric_limits<size_t>::max());
+
+/// Whether two triangles have more in common than the corners and edges that are in the same places.
+bool do_cross(const std::array<Vec3d, 3>& first, const std::array<Vec3d, 3>& second);
 
 }  // namespace anisomesh::detail
