@@ -75,7 +75,7 @@ struct RemeshReport : TraceAndMeshReport {
 
 /// Traces lines, places isotropic samples and builds polygons; where a target is given, with the epsilon that
 /// meets it: count is about proportional to 1/epsilon, and a few attempts find the rest.
-/// With MeshOptions::for_fit from 8 % below to 7 % above the target is near enough: balance_vertices() finds
+/// With MeshOptions::for_fit from 10 % below to 7 % above the target is near enough: balance_vertices() finds
 /// how many there are to be in properties target_vertices and target_faces. Reads: what trace_lines() reads.
 /// Writes: what trace_lines() and place_isotropic_samples() write. \throw as these and build_polygons()
 OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions& trace = {},

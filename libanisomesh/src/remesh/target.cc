@@ -25,7 +25,7 @@ constexpr double kSeedFraction = 0.8, kCellTolerance = 4;
 constexpr double kForFit = 0.765, kFacesForFit = 0.84;
 /// Off by so much, the balance that follows a fit makes up for it: better by adding vertices, which go to
 /// where the error is largest, than by taking them out, which costs quads.
-constexpr double kEnoughBelow = 0.08, kEnoughAbove = 0.07;
+constexpr double kEnoughBelow = 0.10, kEnoughAbove = 0.07;
 /// It makes quads of triangles too, until there are hardly more faces than this for each vertex; on a closed
 /// surface of quads alone there is one for each, and one more for each below zero of the Euler
 /// characteristic.
