@@ -17,6 +17,7 @@ constexpr double least_fullness = 0.03;  // twice the area over the squared long
 constexpr double least_cosine = 0.3;     // of a triangle's normal to the patch's
 constexpr double least_bend = 0.6;       // of the normals of a quad's triangles
 constexpr double damping = 0.05;
+constexpr double on_spoke = 1e-9;         // barycentric
 constexpr double least_anisotropy = 0.3;  // as where the ruler measures alignment
 
 }  // namespace
@@ -121,7 +122,8 @@ Vec3d PatchView::best_middle(const Vec3d& start, const std::vector<Vec3d>& ring)
       const double of_b = ((p.x - m.x) * (x.y - m.y) - (p.y - m.y) * (x.x - m.x)) / area,
                    of_a = ((x.x - m.x) * (q.y - m.y) - (x.y - m.y) * (q.x - m.x)) / area;
       const double b_middle = 1 - of_a - of_b;
-      if (of_a < 0 || of_b < 0 || b_middle < 0) continue;
+      // On a spoke it is on both sides; where the middle is, beside all.
+      if (of_a < -on_spoke || of_b < -on_spoke || b_middle < -on_spoke) continue;
       const double height = (samples_[i].place - start) | n, w = samples_[i].weight;
       weight += w * b_middle * b_middle;
       for (int r = 0; r < 3; ++r) {
