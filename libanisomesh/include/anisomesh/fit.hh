@@ -18,7 +18,7 @@ struct FitOptions {
   /// Of the squared sine of the angle from a side to the nearer principal direction, relative to the
   /// square of the mean distance there is, and up to 2.75 times that where the result has over a fifth as
   /// many vertices as the input; >= 0
-  double alignment_weight = 28;
+  double alignment_weight = 30;
   double damping = 0.02;  ///< of the squared step, which is what holds vertices of flat places; > 0
   void validate() const;  ///< \throw InvalidOption
 };

@@ -22,7 +22,10 @@ constexpr double least_damping = 1e-12;  // where no sample is
 // [docs/fit.md]
 constexpr double tilt_share = 0.4, most_cotangent = 6;
 constexpr double most_of_small = 10;  // triangles count for more than those of mean area
-constexpr double shortest = 0.05;     // side that is turned, of the size of a polygon
+// A chord of a line that turns runs as the surface does at its middle: the curvature beside it counts. By
+// this factor a side has half the weight of its triangle.
+constexpr double beside_middle = 45;
+constexpr double shortest = 0.05;  // side that is turned, of the size of a polygon
 
 size_t block_of(size_t k, size_t l) { return k == l ? k : 3 + (l == (k + 1) % 3 ? k : l); }
 
@@ -47,7 +50,8 @@ void TriangleForm::add(const FitPair& pair, const FitInput& input) {
   normal_sum += pair.weight * normal;
   if (input.tensor.empty()) return;
   for (int k = 0; k < 3; ++k) {
-    const double near = pair.barycentric[k] + pair.barycentric[(k + 1) % 3], w = pair.weight * near * near;
+    const double near = pair.barycentric[k] * pair.barycentric[(k + 1) % 3];
+    const double w = beside_middle * pair.weight * near * near;
     side_weight[at(k)] += w;
     tensor[at(k)] += w * input.tensor[at(pair.face)];
   }
