@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "anisomesh/features.hh"
+#include "fit/fit_samples.hh"
 #include "prepare/feature_tolerance.hh"
 
 namespace anisomesh::detail {
@@ -68,7 +69,8 @@ void FitCurves::look(const Vec3d& place, int side, const std::vector<Vec3d>& poi
   const double squared = (b - a).sqrnorm();
   const double t = squared > 0 ? std::clamp(((place - a) | (b - a)) / squared, 0.0, 1.0) : 0;
   const double distance = (place - a - t * (b - a)).norm();
-  if (!(distance < best.distance)) return;
+  // Beside a vertex that two sides share the first keeps it.
+  if (!is_nearer(distance * distance, best.distance * best.distance, std::sqrt(squared))) return;
   best.side = side;
   best.parameter = t;
   best.distance = distance;
