@@ -36,7 +36,7 @@ int main(int argc, char* argv[]) {
     const auto estimated = anisomesh::estimate_curvature(mesh, curvature, command.progress("curvature"));
     command.stop_if_cancelled();
     anisomesh::write_mesh(mesh, output);
-    command.warn_unless_om(output, "surface", "what this stage has found, for the next one");
+    command.warn_unless_om(output);
     command.report()["features"] = apps::to_json(tagged);
     command.report()["curvature"] = apps::to_json(estimated);
     command.report()["output"] = output;

@@ -32,7 +32,7 @@ int main(int argc, char* argv[]) {
     const auto umbilics = anisomesh::find_umbilics(surface);
     command.stop_if_cancelled();
     anisomesh::write_mesh(mesh, output);
-    command.warn_unless_om(output, "surface", "what this stage has found, for the next one");
+    command.warn_unless_om(output);
     apps::add_json(command.report(), chosen);
     command.report()["smoothing"] = apps::to_json(smooth);
     command.report()["umbilics"] = apps::to_json(umbilics);

@@ -51,7 +51,7 @@ int main(int argc, char* argv[]) {
     }
     command.stop_if_cancelled();
     anisomesh::write_mesh(mesh, output);
-    command.warn_unless_om(output, "surface", "what this stage has found, for the next one");
+    command.warn_unless_om(output);
     command.report()["output"] = output;
     command.say(output + ": " + std::to_string(report.trace.min_lines) + " min lines, " +
                 std::to_string(report.trace.max_lines) + " max lines, " +

@@ -100,6 +100,12 @@ std::string refuse_negative(const std::string& text) {
 
 }  // namespace
 
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
 Command::Command(const std::string& name, const std::string& description)
     : name_(name),
       app_(std::make_unique<CLI::App>(description, name)),
@@ -274,9 +280,7 @@ void Command::say(const std::string& line) const {
 
 void Command::warn_unless_om(const std::string& path, const std::string& what,
                              const std::string& lost) const {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (ending != ".om") warn(path + " holds the bare " + what + ": only .om keeps " + lost);
+  if (ending_of(path) != ".om") warn(path + " holds the bare " + what + ": only .om keeps " + lost);
 }
 
 void Command::warn_of_unused(const std::vector<std::string>& options, const std::string& why) const {

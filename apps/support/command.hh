@@ -27,6 +27,9 @@ enum Exit {
   exit_cancelled = 130
 };
 
+/// Of a file's name, with its dot and in small letters; empty where it has none.
+std::string ending_of(const std::string& path);
+
 class Command {
  public:
   Command(const std::string& name, const std::string& description);
@@ -61,7 +64,8 @@ class Command {
   /// A line on stderr, unless --quiet.
   void warn(const std::string& line) const;
   /// Warns that only .om keeps properties. \param what the file has otherwise
-  void warn_unless_om(const std::string& path, const std::string& what, const std::string& lost) const;
+  void warn_unless_om(const std::string& path, const std::string& what = "surface",
+                      const std::string& lost = "what this stage has found, for the next one") const;
   /// Warns of options that were given where they change nothing.
   void warn_of_unused(const std::vector<std::string>& options, const std::string& why) const;
   /// What --json writes.

@@ -1,15 +1,14 @@
 #include "view/page.hh"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "anisomesh/errors.hh"
 #include "anisomesh/io.hh"
+#include "support/command.hh"
 #include "view/template.hh"
 
 namespace view {
@@ -55,8 +54,7 @@ bool read_point(const std::string& text, std::array<double, 3>& point) {
 bool have_page() { return !page_template().empty(); }
 
 void require_ending(const std::string& path, const std::vector<std::string>& endings) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = apps::ending_of(path);
   if (ending.empty() || std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
   throw anisomesh::InvalidInput(path + ": unknown ending '" + ending + "'; use " + endings.front());
 }

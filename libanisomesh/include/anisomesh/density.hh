@@ -21,9 +21,9 @@ struct DensityOptions {
   void validate() const;  ///< \throw InvalidOption
 };
 
-/// [ACDLD03, section 3.1.3, equation 6]: the distance of two points on a circle of curvature |curvature| whose chord is
-/// epsilon away from the arc. Infinite at curvature 0; never above the diameter's chord, also where epsilon
-/// exceeds the radius. Model units.
+/// [ACDLD03, section 3.1.3, equation 6]: the distance of two points on a circle of curvature |curvature|
+/// whose chord is epsilon away from the arc. Infinite at curvature 0; never above the diameter's chord, also
+/// where epsilon exceeds the radius. Model units.
 double chord_spacing(double curvature, double epsilon);
 
 /// Spacing on one surface: the options with lengths resolved against its size and mean curvature.

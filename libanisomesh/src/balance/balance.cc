@@ -231,15 +231,18 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
                      balance.wanted().is_met(result, detail::kMet) &&
                      report.fit.rms_after * static_cast<double>(balance.work().n_vertices()) >
                          rms_fitted * static_cast<double>(result.n_vertices());
-  if (worse) report.fit.rms_after = rms_fitted;
   if (change && !worse) balance.split_quads();
   std::vector<OpenMesh::PolyMesh> candidates;
-  if (!coarsened) candidates.push_back(result);
-  if (change) candidates.push_back(std::move(fitted));
-  if (!worse) candidates.push_back(std::move(balance.work()));
+  std::vector<double> rms;
+  const auto add = [&](OpenMesh::PolyMesh&& candidate, double of_it) {
+    candidates.push_back(std::move(candidate));
+    rms.push_back(of_it);
+  };
+  if (!coarsened) add(OpenMesh::PolyMesh(result), report.fit.rms_before);
+  if (change) add(std::move(fitted), rms_fitted);
+  if (!worse) add(std::move(balance.work()), report.fit.rms_after);
   const auto taken = static_cast<size_t>(choose_unfolded(surface, balance.reference(), candidates));
-  if (taken + 1 < candidates.size())
-    report.fit.rms_after = taken == 0 && !coarsened ? report.fit.rms_before : rms_fitted;
+  report.fit.rms_after = rms[taken];
   result = std::move(candidates[taken]);
   report.fit.seconds = report.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -56,13 +56,13 @@ DisjointSets near_ones(const Soup& soup, const std::vector<size_t>& vertices, do
   return near;
 }
 
-/// The ends of border edges that lie on one another, where these are no more than two.
+/// The border edges that lie on one another, where these are no more than two.
 struct Seams {
   size_t edges = 0;
   std::vector<std::pair<size_t, size_t>> ends;  ///< vertices that would be one
 };
 
-Seams find_seams(const Soup& soup, double distance) {
+Seams find_seams(const Soup& soup, double fraction) {
   const Sides sides(soup);
   std::vector<char> inner(soup.corners.size(), 0), is_border(soup.points.size(), 0);
   sides.for_each_pair(soup, [&](size_t a, size_t b) { inner[a] = inner[b] = 1; });
@@ -76,6 +76,9 @@ Seams find_seams(const Soup& soup, double distance) {
     for (const size_t v : ends_of(i))
       if (!std::exchange(is_border[v], 1)) border.push_back(v);
   }
+  if (border.empty()) return {};
+  const double distance = fraction * enclosing_diameter(soup.points);
+  if (!(distance > 0)) return {};
   DisjointSets near = near_ones(soup, border, distance);
   std::map<std::pair<size_t, size_t>, std::vector<size_t>> edges;
   for (size_t i = 0; i < inner.size(); ++i) {
@@ -99,9 +102,7 @@ Seams find_seams(const Soup& soup, double distance) {
 
 // Edge by edge: vertices that are merely in one place, as where two sheets touch, stay apart.
 void weld(const Soup& soup, double fraction, DisjointSets& places, ReadReport& report) {
-  const double extent = enclosing_diameter(soup.points);
-  if (!(extent > 0)) return;
-  const Seams seams = find_seams(soup, (fraction > 0 ? fraction : rounded) * extent);
+  const Seams seams = find_seams(soup, fraction > 0 ? fraction : rounded);
   if (fraction > 0)
     for (const auto& [v, w] : seams.ends) report.welded_vertices += places.join(v, w);
   else

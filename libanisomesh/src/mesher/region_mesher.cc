@@ -116,7 +116,6 @@ void RegionMesher::bring_up_to_date(const std::vector<std::array<int, 3>>& trian
     is_changed[t] = t >= known_for_.size() || triangles[t] != known_for_[t];
     if (is_changed[t]) changed.push_back(t);
   }
-  known_.resize(region_.probes.size());
   for (size_t i = 0; i < known_.size(); ++i) {
     Known& known = known_[i];
     const auto look = [&](size_t t) {

@@ -175,8 +175,10 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
     } catch (const CannotProcess&) {
       refused.push_back(epsilon);
       if (refused.size() > kMostRefusals || is_last) break;
-      if (is_enough(refused, search) && trials.empty()) throw;
-      if (is_enough(refused, search)) break;
+      if (is_enough(refused, search)) {
+        if (trials.empty()) throw;
+        break;
+      }
       epsilon = after_refusal(epsilon, trials);
       continue;
     }
