@@ -185,3 +185,44 @@ TEST_CASE("a pyramid through another sheet is parted anew", "[unfold]") {
   CHECK(compare(sheets, candidates[0]).self_intersecting_faces == 0);
   CHECK(candidates[0].n_faces() == 5);
 }
+
+// A tent whose tip a corner of another sheet has gone through: flat, it would cross nothing, and be far off.
+TEST_CASE("nothing is parted so that it leaves the surface, for crossing no more", "[unfold]") {
+  OpenMesh::TriMesh tent;
+  std::vector<OpenMesh::VertexHandle> t;
+  for (const Vec3d& p : {Vec3d(-1, -1, 0), Vec3d(1, -1, 0), Vec3d(1, 1, 0), Vec3d(-1, 1, 0), Vec3d(0, 0, 1)})
+    t.push_back(tent.add_vertex(p));
+  for (size_t i = 0; i < 4; ++i) tent.add_face(t[i], t[(i + 1) % 4], t[4]);
+  std::vector<OpenMesh::VertexHandle> s;
+  for (const Vec3d& p : {Vec3d(-3, -3, 1.1), Vec3d(3, -3, 1.1), Vec3d(3, 3, 1.1), Vec3d(-3, 3, 1.1)})
+    s.push_back(tent.add_vertex(p));
+  tent.add_face(s[0], s[1], s[2]);
+  tent.add_face(s[0], s[2], s[3]);
+
+  PolyMesh result;
+  const auto face = provide_property(result, property::source_face);
+  const auto barycentric = provide_property(result, property::source_barycentric);
+  const auto origin = provide_property(result, property::origin);
+  provide_property(result, property::edge_kind);
+  std::vector<OpenMesh::VertexHandle> v;
+  const auto add = [&](const Vec3d& p, int f, const Vec3d& b) {
+    v.push_back(result.add_vertex(p));
+    result.property(face, v.back()) = f;
+    result.property(barycentric, v.back()) = b;
+    result.property(origin, v.back()) = static_cast<int>(Origin::crossing);
+  };
+  for (int i = 0; i < 4; ++i) add(tent.point(t[static_cast<size_t>(i)]), i, {1, 0, 0});
+  add({0, 0, 1}, 0, {0, 0, 1});
+  add({-3, -3, 1.1}, 4, {1, 0, 0});
+  add({3, -3, 1.1}, 4, {0, 1, 0});
+  add({3, 3, 1.1}, 4, {0, 0, 1});
+  add({-3, 3, 1.1}, 5, {0, 0, 1});
+  add({0.05, 0, 0.8}, 0, {0, 0, 1});  // built where the tip is, so that it cannot go back
+  for (size_t i = 0; i < 4; ++i) result.add_face(v[i], v[(i + 1) % 4], v[4]);
+  for (size_t i = 0; i < 4; ++i) result.add_face(v[5 + i], v[5 + (i + 1) % 4], v[9]);
+  REQUIRE(compare(tent, result).self_intersecting_faces > 0);
+  std::vector<PolyMesh> candidates{result};
+  detail::choose_unfolded(tent, detail::ReferenceSurface(SurfaceRef(tent)), candidates);
+  const Comparison after = compare(tent, candidates[0]);
+  CHECK(after.two_sided.hausdorff < 0.06);
+}

@@ -1,9 +1,18 @@
 #include "balance/mending.hh"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "fit/fit_samples.hh"
+
 namespace anisomesh::detail {
+
+namespace {
+
+constexpr int places_in_a_side = 3;  // of a triangle
+
+}  // namespace
 
 size_t count_marked(const std::vector<char>& marks) {
   return static_cast<size_t>(std::count(marks.begin(), marks.end(), 1));
@@ -21,6 +30,18 @@ std::vector<char> FaceJudge::broken(const PolygonSoup& faces) const {
   add(degenerate_faces(faces));
   if (convex_) add(concave_faces(faces));
   return result;
+}
+
+double FaceJudge::farthest(const PolygonSoup& faces) const {
+  double squared = 0;
+  for (const Triangle& t : faces.triangles)
+    for_each_piece(places_in_a_side, [&](const Vec3d& w) {
+      Vec3d place(0, 0, 0);
+      for (size_t k = 0; k < 3; ++k)
+        place += w[static_cast<int>(k)] * faces.points[static_cast<size_t>(t[k])];
+      squared = std::max(squared, reference_.tree.closest(place).squared_distance);
+    });
+  return std::sqrt(squared);
 }
 
 Vec3d view_normal(const ReferenceSurface& reference, const PatchMesh& mesh, const PatchMesh::Patch& patch) {

@@ -23,6 +23,8 @@ class FaceJudge {
   std::vector<char> broken(const OpenMesh::PolyMesh& mesh) const {
     return broken(PolygonSoup(mesh, FaceDiagonal::shorter));
   }
+  /// Largest distance of places in the faces from the surface, model units.
+  double farthest(const PolygonSoup& faces) const;
 
  private:
   const ReferenceSurface& reference_;

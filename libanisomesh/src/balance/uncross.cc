@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 
 #include "balance/patch_partition.hh"
 #include "numerics/self_intersections.hh"
+#include "surface/rounding.hh"
 
 namespace anisomesh::detail {
 
@@ -86,6 +88,7 @@ class Uncrosser {
   const FaceJudge& judge_;
   PatchMesh mesh_;
   OwnCrossings of_surface_;
+  double limit_ = 0;  // distance that some place has when this begins
 };
 
 /// With the vertices of these polygons only.
@@ -199,7 +202,8 @@ std::vector<Polygons> Uncrosser::partitions(const PatchMesh::Patch& patch) const
   return result;
 }
 
-/// The partition that takes out most crossings, the first of several.
+/// The partition that takes out most crossings, the first of several, of those that are no farther from the
+/// surface than what is there, or than some place of the result is.
 bool Uncrosser::part_anew(int polygon) {
   PatchMesh::Patch best;
   Polygons best_pieces;
@@ -208,10 +212,13 @@ bool Uncrosser::part_anew(int polygon) {
     if (patch.ring.size() < 4 || patch.ring.size() > most_corners) continue;
     const Polygons old = at_numbers(patch.polygons), others = beside(patch.polygons, old);
     const auto before = static_cast<long>(crossings(old, others));
+    const double far = before > most ? std::max(limit_, judge_.farthest(soup_of(old))) : limit_;
     for (const Polygons& pieces : partitions(patch)) {
       if (before <= most || !mesh_.may_replace(patch, pieces)) continue;
       const long fewer = before - static_cast<long>(crossings(pieces, others));
-      if (fewer <= most || broken(pieces, others) > broken(old, others)) continue;
+      if (fewer <= most || broken(pieces, others) > broken(old, others) ||
+          judge_.farthest(soup_of(pieces)) > far + kRounding * judge_.reference().diagonal)
+        continue;
       most = fewer;
       best = patch;
       best_pieces = pieces;
@@ -253,6 +260,12 @@ bool Uncrosser::run() {
   if (static_cast<double>(found.size()) >
       few_pairs + few_share * static_cast<double>(mesh_.polygons().size()))
     return false;
+  if (!found.empty()) {
+    Polygons polygons = mesh_.polygons();
+    polygons.erase(std::remove_if(polygons.begin(), polygons.end(), [](const auto& p) { return p.empty(); }),
+                   polygons.end());
+    limit_ = judge_.farthest(soup_of(polygons));
+  }
   for (int round = 0; round < max_rounds && !found.empty(); ++round) {
     bool changed = false;
     for (const auto& pair : found)
