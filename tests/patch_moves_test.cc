@@ -1,8 +1,9 @@
 // What may take the place of polygons in a result that is being changed.
-#include "balance/patch_moves.hh"
+#include "balance/patch_changes.hh"
 
 #include "anisomesh/mesher.hh"
 #include "anisomesh/properties.hh"
+#include "anisomesh/shapes.hh"
 #include "catch.hh"
 
 using namespace anisomesh;
@@ -11,7 +12,7 @@ namespace {
 
 using Polygons = std::vector<std::vector<int>>;
 
-detail::PatchMesh patch_mesh(const std::vector<Vec3d>& places, const Polygons& polygons) {
+OpenMesh::PolyMesh result_of(const std::vector<Vec3d>& places, const Polygons& polygons) {
   OpenMesh::PolyMesh mesh;
   for (const Vec3d& p : places) mesh.add_vertex(p);
   for (const auto& polygon : polygons) {
@@ -28,7 +29,11 @@ detail::PatchMesh patch_mesh(const std::vector<Vec3d>& places, const Polygons& p
     mesh.property(face, v) = 0;
     mesh.property(barycentric, v) = {1, 0, 0};
   }
-  return detail::PatchMesh(mesh);
+  return mesh;
+}
+
+detail::PatchMesh patch_mesh(const std::vector<Vec3d>& places, const Polygons& polygons) {
+  return detail::PatchMesh(result_of(places, polygons));
 }
 
 }  // namespace
@@ -65,4 +70,30 @@ TEST_CASE("no vertex is added where one is", "[patch_moves]") {
   changes.apply(first);
   CHECK_FALSE(changes.is_open(second));
   CHECK(changes.is_open(addition(1, {1.5, 0.5, 0})));
+}
+
+// Two triangles of a quad that is concave at 2, and the other way to part it, which turns one over; and a
+// quad beside, parted at will.
+TEST_CASE("a move that folds a polygon is told from one that does not", "[patch_moves]") {
+  const std::vector<Vec3d> places{{0, 0, 0}, {1, 0, 0}, {0.3, 0.3, 0}, {0, 1, 0}, {1, -1, 0}, {0, -1, 0}};
+  const auto before = result_of(places, {{0, 1, 2}, {0, 2, 3}, {0, 5, 4, 1}});
+  auto plane = make_shape("plane", {100, false});
+  const detail::ReferenceSurface reference{SurfaceRef(plane)};
+  const detail::FaceJudge judge(reference, before);
+  detail::PatchMesh mesh(before);
+  detail::PatchMove folding, fair;
+  folding.patch = mesh.join({0, 1});
+  folding.pieces = {{0, 1, 3}, {1, 2, 3}};
+  fair.patch = mesh.join({2});
+  fair.pieces = {{0, 5, 4}, {0, 4, 1}};
+  detail::PatchChanges changes(mesh);
+  for (const auto* move : {&folding, &fair}) {
+    REQUIRE(changes.is_open(*move));
+    changes.apply(*move);
+  }
+  CHECK(changes.breaking(judge, before) == detail::PatchChanges::Moves{&folding});
+  detail::PatchMesh again(before);
+  const detail::PatchChanges::Moves refused{&folding};
+  CHECK_FALSE(detail::PatchChanges(again, refused).is_open(folding));
+  CHECK(detail::PatchChanges(again, refused).is_open(fair));
 }

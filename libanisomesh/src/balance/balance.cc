@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 
 #include "anisomesh/errors.hh"
 #include "anisomesh/properties.hh"
 #include "balance/far_moves.hh"
-#include "balance/patch_moves.hh"
+#include "balance/patch_changes.hh"
 #include "balance/quad_splits.hh"
 #include "balance/unfold.hh"
 #include "compare/compare_parts.hh"
+#include "prepare/feature_tolerance.hh"
 #include "remesh/epsilon_search.hh"
 #include "surface/canonical_copy.hh"
 #include "surface/recorded.hh"
@@ -26,18 +28,23 @@ using detail::PatchChanges;
 using detail::PatchMesh;
 using detail::PatchMove;
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr int passes_before = 2, passes_between = 1;
 constexpr int more_rounds = 3;  // where there are too many after those asked for
 constexpr double near_enough = 0.05;
 /// Taken out at once where there are far too many, those that cost least then; and what a round must take out
 /// of all for another to follow.
 constexpr double most_at_once = 0.15, least_at_once = 0.02;
+constexpr int trials = 4;     // of a round of moves, each without those that have broken a polygon
 constexpr double sure = 1.2;  // an exchange must gain this many times what it costs
+/// Where features that were asked for take more than this share of the vertices that are wanted, the others
+/// go only as long as one costs no more than so many mean errors of a polygon: they tell all of the shape.
+constexpr double features_alone = 0.9, dearest_of_few = 8;
 
 /// Takes removals and additions in turn, as long as that pays, or the number of vertices is not what it is to
-/// be.
+/// be. \param dearest no vertex that is too many goes for more error than this
 void exchange(PatchChanges& changes, const std::vector<PatchMove>& removals,
-              const std::vector<PatchMove>& additions, long surplus, BalanceReport& report) {
+              const std::vector<PatchMove>& additions, long surplus, double dearest, BalanceReport& report) {
   size_t r = 0, a = 0;
   while (true) {
     while (r < removals.size() && !changes.is_open(removals[r])) ++r;
@@ -45,7 +52,10 @@ void exchange(PatchChanges& changes, const std::vector<PatchMove>& removals,
     const bool can_remove = r < removals.size(), can_add = a < additions.size();
     if (surplus > 0) {
       if (!can_remove) return;
-      changes.apply(removals[r]), --surplus, ++report.removed;
+      if (-removals[r].gain > dearest)
+        surplus = 0;
+      else
+        changes.apply(removals[r]), --surplus, ++report.removed;
     } else if (surplus < 0) {
       if (!can_add) return;
       changes.apply(additions[a]), ++surplus, ++report.added;
@@ -82,6 +92,10 @@ struct Wanted {
     return std::abs(excess(mesh)) <= within;
   }
   bool is_exceeded(const OpenMesh::PolyMesh& mesh, double by) const { return excess(mesh) > by; }
+  /// Vertices that the result would have.
+  double of(const OpenMesh::PolyMesh& mesh) const {
+    return static_cast<double>(mesh.n_vertices()) / (1 + excess(mesh));
+  }
 
  private:
   /// As a fraction of what is wanted.
@@ -91,6 +105,23 @@ struct Wanted {
   }
 };
 
+bool takes_few(size_t before, size_t after) {
+  return static_cast<double>(after) > (1 - least_at_once) * static_cast<double>(before);
+}
+
+/// On features that are followed however large epsilon is.
+size_t vertices_on_asked_features(const SurfaceRef& surface, const OpenMesh::PolyMesh& result) {
+  if (!result.has_edge_status() ||
+      detail::recorded(surface.connectivity(), property::feature_tolerance,
+                       detail::asked_feature_tolerance) >= detail::found_feature_tolerance)
+    return 0;
+  std::vector<char> on_feature(result.n_vertices(), 0);
+  for (const auto e : result.edges())
+    if (result.status(e).feature() && !result.is_boundary(e))
+      for (const auto v : {e.v0(), e.v1()}) on_feature[static_cast<size_t>(v.idx())] = 1;
+  return detail::count_marked(on_feature);
+}
+
 /// The result on its way, and what is known of it.
 class Balance {
  public:
@@ -99,8 +130,11 @@ class Balance {
       : surface_(surface),
         input_(surface),
         reference_(surface),
+        judge_(reference_, result),
         options_(options),
         wanted_(surface, result, options),
+        is_dear_(static_cast<double>(vertices_on_asked_features(surface, result)) >
+                 features_alone * wanted_.of(result)),
         work_(result),
         state_(std::make_unique<detail::FitState>(surface, input_, work_, fit_options)) {}
 
@@ -109,26 +143,41 @@ class Balance {
   OpenMesh::PolyMesh& work() { return work_; }
   BalanceReport& report() { return report_; }
   const Wanted& wanted() const { return wanted_; }
+  bool is_dear() const { return is_dear_; }
 
   void fit(int passes) {
     report_.fit.passes += state_->improve_often(passes);
     for (const auto v : work_.vertices()) work_.set_point(v, state_->points()[static_cast<size_t>(v.idx())]);
   }
 
+  /// Moves that break a polygon are taken back, and others may take their place.
   void move() {
     const detail::PatchMoves moves(surface_, input_, *state_, options_);
-    PatchMesh mesh(work_);
-    PatchChanges changes(mesh);
+    const PatchMesh start(work_);
     const auto at_once = static_cast<long>(most_at_once * static_cast<double>(work_.n_vertices()));
     const long surplus = std::min(wanted_.surplus(work_), at_once);
-    const auto removals = moves.removals(mesh, surplus == at_once),
-               additions = moves.additions(mesh, surplus < 0),
-               far = detail::FarMoves(reference_, *state_, options_).repartitions(mesh),
-               repartitions = moves.repartitions(mesh);
-    part(changes, far);
-    exchange(changes, removals, additions, surplus, report_);
-    part(changes, repartitions);
-    go_on_with(mesh);
+    const auto removals = moves.removals(start, surplus == at_once),
+               additions = moves.additions(start, surplus < 0),
+               far = detail::FarMoves(reference_, *state_, options_).repartitions(start),
+               repartitions = moves.repartitions(start);
+    const double dearest = is_dear_ ? dearest_of_few * moves.mean_error() : infinite;
+    PatchChanges::Moves refused;
+    for (int trial = 1;; ++trial) {
+      PatchMesh mesh = start;
+      PatchChanges changes(mesh, refused);
+      BalanceReport report = report_;
+      part(changes, far, report);
+      exchange(changes, removals, additions, surplus, dearest, report);
+      part(changes, repartitions, report);
+      const PatchChanges::Moves breaking =
+          trial < trials ? changes.breaking(judge_, work_) : PatchChanges::Moves();
+      if (breaking.empty()) {
+        report_ = report;
+        go_on_with(mesh);
+        return;
+      }
+      refused.insert(breaking.begin(), breaking.end());
+    }
   }
 
   /// Far too many are taken out a few at a time, each time those that cost least of what is there by then.
@@ -136,11 +185,11 @@ class Balance {
   bool coarsen(const Progress& progress) {
     bool any = false;
     while (wanted_.is_exceeded(work_, most_at_once)) {
-      const auto before = static_cast<double>(work_.n_vertices());
+      const size_t before = work_.n_vertices();
       report_progress(progress, 0);
       fit(any ? passes_between : passes_before);
       move();
-      if (static_cast<double>(work_.n_vertices()) > (1 - least_at_once) * before) break;
+      if (takes_few(before, work_.n_vertices())) break;
       any = true;
     }
     return any;
@@ -151,7 +200,7 @@ class Balance {
     PatchMesh mesh(work_);
     PatchChanges changes(mesh);
     const auto far = detail::FarMoves(reference_, *state_, options_).repartitions(mesh);
-    part(changes, far);
+    part(changes, far, report_);
     if (!far.empty()) go_on_with(mesh);
   }
 
@@ -162,9 +211,9 @@ class Balance {
   }
 
  private:
-  void part(PatchChanges& changes, const std::vector<PatchMove>& moves) {
+  static void part(PatchChanges& changes, const std::vector<PatchMove>& moves, BalanceReport& report) {
     for (const PatchMove& move : moves)
-      if (changes.is_open(move)) changes.apply(move), ++report_.parted;
+      if (changes.is_open(move)) changes.apply(move), ++report.parted;
   }
   void go_on_with(const PatchMesh& mesh) {
     work_ = mesh.mesh();
@@ -174,8 +223,10 @@ class Balance {
   const SurfaceRef& surface_;
   const detail::FitInput input_;
   const detail::ReferenceSurface reference_;
+  const detail::FaceJudge judge_;
   const BalanceOptions& options_;
   const Wanted wanted_;
+  const bool is_dear_;  // what is too much, since there are few vertices besides those on features
   BalanceReport report_;
   OpenMesh::PolyMesh work_;
   std::unique_ptr<detail::FitState> state_;
@@ -216,7 +267,10 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     report_progress(progress, std::min(round, options.rounds) / (options.rounds + 1.0));
     balance.fit(round == 0 ? passes_before : passes_between);
     if (round == 0) fitted = balance.work(), rms_fitted = balance.rms();
+    const size_t before = balance.work().n_vertices();
     balance.move();
+    if (round + 1 >= options.rounds && balance.is_dear() && takes_few(before, balance.work().n_vertices()))
+      break;
   }
   report_progress(progress, options.rounds / (options.rounds + 1.0));
   const int last = change ? (3 * fit_options.passes + 3) / 4 : fit_options.passes;  // it begins near then

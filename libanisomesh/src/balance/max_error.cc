@@ -8,7 +8,7 @@
 #include <string>
 
 #include "anisomesh/errors.hh"
-#include "balance/patch_moves.hh"
+#include "balance/patch_changes.hh"
 #include "compare/compare_parts.hh"
 #include "numerics/hausdorff.hh"
 #include "surface/canonical_copy.hh"

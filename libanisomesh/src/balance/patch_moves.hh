@@ -1,8 +1,6 @@
 // The moves that balance a result: each is judged by the error of the samples it concerns, before and after.
 #pragma once
 
-#include <array>
-#include <set>
 #include <vector>
 
 #include "anisomesh/balance.hh"
@@ -71,43 +69,6 @@ class PatchMoves {
   std::vector<PatchSample> placed_;
   std::vector<Vec3d> normal_;  // sums by weight
   std::vector<Vec6d> tensor_;  // empty where none is known
-};
-
-/// Applies moves as long as none concerns polygons that another has changed, and none adds a vertex where one
-/// is: sheets that touch may both be far from the vertex of the input that is nearest to both.
-class PatchChanges {
- public:
-  explicit PatchChanges(PatchMesh& mesh) : mesh_(mesh), touched_(mesh.polygons().size(), 0) {
-    for (const auto& vertex : mesh.vertices())
-      if (!vertex.polygons.empty()) taken_.insert(key(vertex.point));
-  }
-
-  bool is_open(const PatchMove& move) const {
-    for (const int p : move.patch.polygons)
-      if (touched_[static_cast<size_t>(p)]) return false;
-    if (move.adds && taken_.count(key(move.place)) > 0) return false;
-    return mesh_.may_replace(move.patch, move.pieces);
-  }
-  void apply(const PatchMove& move) {
-    auto pieces = move.pieces;
-    if (move.adds) {
-      taken_.insert(key(move.place));
-      const int middle = mesh_.add_vertex(move.place, move.source);
-      for (auto& piece : pieces)
-        for (int& v : piece)
-          if (v < 0) v = middle;
-    }
-    for (const int p : move.patch.polygons) touched_[static_cast<size_t>(p)] = 1;
-    mesh_.replace(move.patch, pieces);
-    touched_.resize(mesh_.polygons().size(), 1);
-  }
-
- private:
-  static std::array<double, 3> key(const Vec3d& p) { return {p[0], p[1], p[2]}; }
-
-  PatchMesh& mesh_;
-  std::vector<char> touched_;
-  std::set<std::array<double, 3>> taken_;
 };
 
 }  // namespace anisomesh::detail

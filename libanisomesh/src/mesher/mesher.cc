@@ -71,7 +71,7 @@ constexpr size_t max_retries = 8;
 constexpr size_t patience = 4;  // retries, before vertices are given up for sound polygons
 // Times the tolerance of features: how far cells beside them may be from the surface, where epsilon grows
 // since features alone are more than what is wanted, and what the judge takes for as far.
-constexpr double cells_at_features = 20, judged_at_features = 5;
+constexpr double cells_at_features = 10, judged_at_features = 5;
 constexpr double tiny = 0.05;            // of epsilon: no edge need be as short
 constexpr double widest_merge = 0.0125;  // of the extent: chains that only bend within a share of infinity
 constexpr double around = 1.5;           // such a polygon: times its width

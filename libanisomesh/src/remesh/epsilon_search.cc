@@ -187,7 +187,7 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
     const double off = trials.back().off();
     const bool stalled = trials.back().stalled = is_stalled(trials);
     const bool enough = off <= (trials.back().log_ratio < 0 ? search.enough_below : search.enough_above);
-    at_coarsest = is_coarsest && trials.back().log_ratio > 0;
+    at_coarsest = is_coarsest && !stalled && trials.back().log_ratio > 0;
     const bool met =
         off <= options.tolerance || enough || at_coarsest || (found.attempts >= 3 && off <= kMet);
     if (made.has_result && (met || (!stalled && off < best_off))) {
@@ -195,7 +195,8 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
       search.keep();
     }
     epsilon = next_epsilon(trials, search.crossings);
-    const bool looks_farther = stalled && ++stalls == 1 && trials.back().log_ratio < kNearTarget;
+    const bool looks_farther =
+        stalled && ++stalls == 1 && !is_coarsest && trials.back().log_ratio < kNearTarget;
     if (looks_farther) epsilon = std::min(kHighest, kLongStep * std::exp(trials.back().log_epsilon));
     while (is_refused(epsilon, refused) && !is_tried(epsilon, trials))
       epsilon = after_refusal(epsilon, trials);

@@ -192,7 +192,9 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     const auto epsilon = provide_property(surface.connectivity(), property::epsilon);
     surface.connectivity().property(epsilon) = done.epsilon_fraction * diagonal;
   }
-  if (balanced && found.met) {  // what is farther off stays so: features, say, ask for as many
+  // What is too much because features, say, ask for as many, the balance takes out as far as that is cheap.
+  const bool too_many = static_cast<double>(count_of(done.mesh.vertices, done.mesh.faces)) > wanted;
+  if (balanced && (found.met || (target.coarsen && too_many))) {
     const auto leave = [&](const auto& declaration, size_t count) {
       connectivity.property(provide_property(connectivity, declaration)) = static_cast<int>(count);
     };
