@@ -40,6 +40,8 @@ constexpr double sure = 1.2;  // an exchange must gain this many times what it c
 /// Where features that were asked for take more than this share of the vertices that are wanted, the others
 /// go only as long as one costs no more than so many mean errors of a polygon: they tell all of the shape.
 constexpr double features_alone = 0.9, dearest_of_few = 8;
+/// ... or so many, where that meets a count that is missed by so little.
+constexpr double dearest_for_count = 32, nearly_met = 0.3;
 
 /// Takes removals and additions in turn, as long as that pays, or the number of vertices is not what it is to
 /// be. \param dearest no vertex that is too many goes for more error than this
@@ -132,6 +134,7 @@ class Balance {
         reference_(surface),
         judge_(reference_, result),
         options_(options),
+        fit_options_(fit_options),
         wanted_(surface, result, options),
         is_dear_(static_cast<double>(vertices_on_asked_features(surface, result)) >
                  features_alone * wanted_.of(result)),
@@ -160,7 +163,7 @@ class Balance {
                additions = moves.additions(start, surplus < 0),
                far = detail::FarMoves(reference_, *state_, options_).repartitions(start),
                repartitions = moves.repartitions(start);
-    const double dearest = is_dear_ ? dearest_of_few * moves.mean_error() : infinite;
+    const double dearest = is_dear_ ? dearest_ * moves.mean_error() : infinite;
     PatchChanges::Moves refused;
     for (int trial = 1;; ++trial) {
       PatchMesh mesh = start;
@@ -195,6 +198,24 @@ class Balance {
     return any;
   }
 
+  /// Takes out what costs more, if the number comes to be met by that.
+  void meet_nearly(const Progress& progress) {
+    const auto is_missed = [&] { return wanted_.is_exceeded(work_, detail::kMet); };
+    if (!is_dear_ || !is_missed() || wanted_.is_exceeded(work_, nearly_met)) return;
+    const OpenMesh::PolyMesh before = work_;
+    const BalanceReport report = report_;
+    dearest_ = dearest_for_count;
+    for (int round = 0; round < more_rounds && is_missed(); ++round) {
+      report_progress(progress, 0);
+      fit(passes_between);
+      move();
+    }
+    if (!is_missed()) return;
+    work_ = before;
+    report_ = report;
+    state_ = std::make_unique<detail::FitState>(surface_, input_, work_, fit_options_);
+  }
+
   /// The farthest places alone.
   void part_far() {
     PatchMesh mesh(work_);
@@ -225,8 +246,10 @@ class Balance {
   const detail::ReferenceSurface reference_;
   const detail::FaceJudge judge_;
   const BalanceOptions& options_;
+  const FitOptions& fit_options_;
   const Wanted wanted_;
   const bool is_dear_;  // what is too much, since there are few vertices besides those on features
+  double dearest_ = dearest_of_few;
   BalanceReport report_;
   OpenMesh::PolyMesh work_;
   std::unique_ptr<detail::FitState> state_;
@@ -272,6 +295,9 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     if (round + 1 >= options.rounds && balance.is_dear() && takes_few(before, balance.work().n_vertices()))
       break;
   }
+  if (change)
+    balance.meet_nearly(
+        [&](double) { return !progress || progress(options.rounds / (options.rounds + 1.0)); });
   report_progress(progress, options.rounds / (options.rounds + 1.0));
   const int last = change ? (3 * fit_options.passes + 3) / 4 : fit_options.passes;  // it begins near then
   balance.fit(1);
