@@ -13,6 +13,7 @@
 #include "anisomesh/lines.hh"
 #include "anisomesh/mesher.hh"
 #include "anisomesh/properties.hh"
+#include "anisomesh/remesh.hh"
 #include "anisomesh/shapes.hh"
 #include "anisomesh/smoothing.hh"
 #include "anisomesh/umbilics.hh"
@@ -163,5 +164,21 @@ TEST_CASE("a smaller cell tolerance brings the result nearer to the surface", "[
     CHECK(result.n_vertices() > vertices);
     before = error;
     vertices = result.n_vertices();
+  }
+}
+
+// Beside a thin sheet the place that is found from a polygon's corners is farther off than the nearest one,
+// and what is far may face any way.
+TEST_CASE("without the fit no polygon is folded as the ruler sees it", "[mesher][scans]") {
+  for (const auto& [name, epsilon] : {std::pair{"lion-head.off", 0.001}, {"mannequin-devil.off", 0.0008}}) {
+    const auto path = demo_mesh(name);
+    if (!path) return skip(name);
+    auto mesh = read_surface(*path);
+    RemeshOptions options;
+    options.fit.enabled = false;
+    options.trace.density.epsilon_fraction = epsilon;
+    auto result = remesh(mesh, options);
+    INFO(name);
+    CHECK(compared(mesh, result).folded_faces == 0);
   }
 }

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "anisomesh/errors.hh"
@@ -220,6 +221,7 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
   const detail::SlitSeams seams(surface);
   NetworkGraph network, start = drawing->network();
   std::vector<std::vector<int>> polygons;
+  std::optional<detail::ReferenceSurface> reference;
   while (true) {
     network = start;
     detail::DecimationReport decimated;
@@ -245,6 +247,11 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
     local.polygon_seconds += stopwatch.lap();
     report_progress(progress, 0.8);
     if (unsound.empty() && local.retries < patience) unsound = soundness.coincident(polygons, network);
+    // What is to be fitted is judged so when it has been.
+    if (unsound.empty() && !given.for_fit && local.retries < patience) {
+      if (!reference) reference.emplace(surface);
+      unsound = soundness.folded(polygons, network, *reference);
+    }
     if (unsound.empty()) break;
     count_polygons(polygons, local);
     if (!is_wanted(local.vertices, local.faces)) {

@@ -7,7 +7,6 @@
 #include <unordered_set>
 
 #include "anisomesh/errors.hh"
-#include "compare/compare_parts.hh"
 #include "mesher/conforming.hh"
 #include "numerics/bvh.hh"
 #include "surface/rounding.hh"
@@ -378,6 +377,15 @@ std::vector<Polygon> Soundness::coincident(const std::vector<Polygon>& polygons,
   std::vector<Polygon> result;
   for (const Polygon& p : polygons)
     if (coincident_.has_one(p, network)) result.push_back(p);
+  return result;
+}
+
+std::vector<Polygon> Soundness::folded(const std::vector<Polygon>& polygons, const NetworkGraph& network,
+                                       const ReferenceSurface& reference) const {
+  std::vector<Polygon> result;
+  const auto marks = folded_faces(reference, {network.positions, polygons, FaceDiagonal::shorter});
+  for (size_t p = 0; p < polygons.size(); ++p)
+    if (marks[p] && !is_of_input(polygons[p], network)) result.push_back(polygons[p]);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/compare_parts.hh"
 #include "compare/fold_limits.hh"
 #include "mesher/coincident_sides.hh"
 #include "mesher/polygon_adjacency.hh"
@@ -26,6 +27,10 @@ class Soundness {
   /// Those that repair() has left with a side that lies on one between other nodes, and need not.
   std::vector<std::vector<int>> coincident(const std::vector<std::vector<int>>& polygons,
                                            const NetworkGraph& network) const;
+  /// Those that compare() calls folded, nearest points being sought in all of the surface, and that are no
+  /// triangles of the input.
+  std::vector<std::vector<int>> folded(const std::vector<std::vector<int>>& polygons,
+                                       const NetworkGraph& network, const ReferenceSurface& reference) const;
   /// \throw CannotProcess if the polygons are not a manifold with the input's Euler characteristic and border
   void require_topology(const std::vector<std::vector<int>>& polygons) const;
 
