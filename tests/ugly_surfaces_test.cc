@@ -305,3 +305,42 @@ TEST_CASE("at the tip of a spike no sliver lies inside out on another side of it
   auto result = remesh(mesh, options);
   check_sound(compare(mesh, result));
 }
+
+namespace {
+
+/// A flat ring with square rims: radii 1.27 and 1.1, 120 sides.
+Soup washer(double thickness) {
+  constexpr int n = 120;
+  Soup soup;
+  for (const double z : {0.0, thickness})
+    for (const double radius : {1.27, 1.1})
+      for (int i = 0; i < n; ++i) soup.points.push_back(around(static_cast<double>(i) / n, radius, z));
+  const auto wall = [&](int first, int second) {  // from one circle to another, seen from the left
+    for (int i = 0; i < n; ++i) {
+      const int next = (i + 1) % n;
+      soup.faces.push_back({first * n + i, first * n + next, second * n + next});
+      soup.faces.push_back({first * n + i, second * n + next, second * n + i});
+    }
+  };
+  wall(0, 2), wall(2, 3), wall(3, 1), wall(1, 0);
+  return soup;
+}
+
+}  // namespace
+
+// Where the normals at its rims are those of its plates, a wall was taken for turned over, and flips drew it
+// across the hole; polygons of a single wall were sought for more than eight minutes.
+TEST_CASE("the walls of a thin ring stay where they are", "[ugly]") {
+  auto mesh = washer(1e-3).read();
+  RemeshOptions options;
+  options.trace.density.epsilon_fraction = 2e-6;
+  options.fit.enabled = false;
+  for (const int degree : {4, 0}) {
+    options.mesh.max_degree = degree;
+    auto result = remesh(mesh, options);
+    const auto c = compare(mesh, result);
+    check_sound(c);
+    CHECK(c.self_intersecting_faces == 0);
+    CHECK(c.two_sided.hausdorff < 1e-6);
+  }
+}

@@ -238,6 +238,7 @@ std::vector<Piece> partition_region(const RegionCorners& region, const PolygonJu
     // In a flat place corners are straight but for rounding, and a convex partition would turn on that.
     if (options.max_degree != 0) pieces = cut_in_two(region, static_cast<int>(region.loop) / 4);
     if (pieces.size() < 2) pieces = cut_convex(region);
+    if (large && pieces.size() < 2) pieces = cut_in_two(region, 2);
     if (pieces.empty()) pieces = cut_ears(region);
     if (pieces.size() > 1) {
       for (const Piece& piece : pieces)
@@ -248,7 +249,8 @@ std::vector<Piece> partition_region(const RegionCorners& region, const PolygonJu
       return result;
     }
   }
-  std::vector<Piece> pieces = Partition(region, judge, options.max_degree != 3).run();
+  std::vector<Piece> pieces;
+  if (!large) pieces = Partition(region, judge, options.max_degree != 3).run();
   if (pieces.empty()) pieces = cut_ears(region);
   if (options.max_degree == 0 || options.max_degree > 4)
     return join_triangles(region, std::move(pieces), judge, options);

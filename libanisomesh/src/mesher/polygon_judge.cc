@@ -78,6 +78,8 @@ Vec3d PolygonJudge::surface_normal(const Vec2d& uv, const Vec3d& place, OpenMesh
   return normals_.at(locator_.locate(uv, place, start));
 }
 
+Vec3d PolygonJudge::surface_normal(const SurfacePoint& point) const { return normals_.at(point); }
+
 bool PolygonJudge::middle_of(const RegionCorners& region, int a, int b, Vec3d& place,
                              SurfacePoint& below) const {
   bool inside = false;
@@ -142,7 +144,8 @@ bool PolygonJudge::is_folded(const RegionCorners& region, int a, int b, int c) {
   return (area_vector(p) | reference_normal(region, {a, b, c})) <= 0;
 }
 
-double PolygonJudge::triangle_cost(const RegionCorners& region, int a, int b, int c) const {
+double PolygonJudge::triangle_cost(const RegionCorners& region, int a, int b, int c,
+                                   ChordCosts* known) const {
   const std::array<Vec3d, 3> p{region.position[at(a)], region.position[at(b)], region.position[at(c)]};
   const Vec3d area = area_vector(p);
   double longest = 0, widest = 0;
@@ -156,8 +159,16 @@ double PolygonJudge::triangle_cost(const RegionCorners& region, int a, int b, in
   if ((area | reference_normal(region, {a, b, c})) <= 0) cost += folded;
   cost += averse * against(region, {a, b, c}, area);
   // Every inner chord is a side of two pieces.
-  for (const auto& side : {std::array<int, 2>{a, b}, {b, c}, {c, a}})
-    if (!region.is_side(side[0], side[1])) cost += chord_cost(region, side[0], side[1]);
+  for (const auto& side : {std::array<int, 2>{a, b}, {b, c}, {c, a}}) {
+    if (region.is_side(side[0], side[1])) continue;
+    if (!known) {
+      cost += chord_cost(region, side[0], side[1]);
+      continue;
+    }
+    const auto [found, is_new] = known->try_emplace(side, 0.0);
+    if (is_new) found->second = chord_cost(region, side[0], side[1]);
+    cost += found->second;
+  }
   return cost;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <map>
 #include <vector>
 
 #include "mesher/line_directions.hh"
@@ -56,13 +57,17 @@ struct JudgeOptions {
   double alignment_weight = 1;  ///< of an edge in the middle between two principal directions
 };
 
+/// What the chords of one region cost, by their ends in order: to find the middle of one takes time.
+using ChordCosts = std::map<std::array<int, 2>, double>;
+
 /// Costs are sums over polygons: about 1 for a square, more for what one would rather not have.
 class PolygonJudge {
  public:
   PolygonJudge(const SurfaceRef& surface, const SurfaceLocator& locator, const SurfaceNormals& normals,
                const JudgeOptions& options);
 
-  double triangle_cost(const RegionCorners& region, int a, int b, int c) const;
+  /// \param known chords of this region that were met before, and those of this triangle then
+  double triangle_cost(const RegionCorners& region, int a, int b, int c, ChordCosts* known = nullptr) const;
   double quad_cost(const RegionCorners& region, const std::array<int, 4>& quad) const;
   /// Sum over polygons given as indices of corners; one of more than four corners counts as one square.
   double cost(const RegionCorners& region, const std::vector<std::vector<int>>& polygons) const;
@@ -77,6 +82,7 @@ class PolygonJudge {
   static bool touches_itself(const std::vector<Vec3d>& corners);
   /// Normal of the surface near a place, see SurfaceLocator.
   Vec3d surface_normal(const Vec2d& uv, const Vec3d& place, OpenMesh::FaceHandle start) const;
+  Vec3d surface_normal(const SurfacePoint& point) const;
 
  private:
   /// Of an inner side of a polygon, which is a side of two.

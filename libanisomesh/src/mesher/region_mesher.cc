@@ -70,7 +70,8 @@ class RegionMesher {
   };
   std::vector<Known> known_;
   std::vector<std::array<int, 3>> known_for_;
-  std::map<std::array<int, 3>, double> costs_;  // of triangles: to find the middle of a chord takes time
+  std::map<std::array<int, 3>, double> costs_;  // of triangles
+  ChordCosts chords_;
 };
 
 // Distance of the surface from the plane of a triangle; the nearest point is not sought, since it lies
@@ -213,7 +214,7 @@ bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& 
   corners_.uv.push_back(chosen->uv);
   corners_.position.push_back(chosen->position);
   corners_.face.push_back(chosen->point.face);
-  corners_.corner_normal.emplace_back(0, 0, 0);
+  corners_.corner_normal.push_back(judge_.surface_normal(chosen->point));
   const SurfacePoint point = chosen->point;
   const auto index = chosen - region_.probes.data();
   region_.probes.erase(region_.probes.begin() + index);
@@ -229,6 +230,7 @@ bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& 
     triangulation = std::move(*before);
     drop_last_corner();
     costs_.clear();  // the next corner has its number
+    chords_.clear();
   } else {
     result.added.push_back(point);
   }
@@ -237,7 +239,7 @@ bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& 
 
 double RegionMesher::cost(int a, int b, int c) {
   const auto [found, is_new] = costs_.try_emplace({a, b, c}, 0.0);
-  if (is_new) found->second = judge_.triangle_cost(corners_, a, b, c);
+  if (is_new) found->second = judge_.triangle_cost(corners_, a, b, c, &chords_);
   return found->second;
 }
 

@@ -294,7 +294,21 @@ void MeshEmbedding::coarsen(const NetworkGraph& network, double tolerance,
   tolerance_ = std::numeric_limits<double>::infinity();
 }
 
+// What the surface's samples in the two triangles at an edge say; zero where there are none.
+Vec3d MeshEmbedding::sampled_normal(OpenMesh::EdgeHandle e) const {
+  Vec3d sum(0, 0, 0);
+  for (unsigned i = 0; i < 2; ++i)
+    for (const Pinned& x : pinned_[at(mesh_.face_handle(mesh_.halfedge_handle(e, i)).idx())])
+      if (x.vertex >= vertices_) sum += samples_[at(x.vertex - vertices_)].normal;
+  return sum;
+}
+
 void MeshEmbedding::flip(const NetworkGraph& network) {
+  std::vector<char> on_feature(network.graph.n_nodes(), 0);
+  for (size_t n = 0; n < on_feature.size(); ++n)
+    for (int e = network.graph.first_edge(static_cast<int>(n)); e >= 0;
+         e = network.graph.next_edge(e, static_cast<int>(n)))
+      on_feature[n] |= network.graph.edge(e).kind == static_cast<int>(EdgeKind::feature);
   const auto angle = [this](VertexHandle apex, VertexHandle a, VertexHandle b) {
     const Vec3d u = mesh_.point(a) - mesh_.point(apex), v = mesh_.point(b) - mesh_.point(apex);
     return std::atan2(cross(u, v).norm(), u | v);
@@ -309,10 +323,21 @@ void MeshEmbedding::flip(const NetworkGraph& network) {
       const VertexHandle c = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)),
                          d = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(o));
       if (network.graph.find_edge(a.idx(), b.idx()) >= 0) continue;
-      const double now = std::min(cosine_to_surface(a, b, c), cosine_to_surface(b, a, d));
+      // Where features meet all corners, as in the wall of a thin plate, no corner knows the side that is
+      // meant.
+      const bool between = on_feature[at(a.idx())] && on_feature[at(b.idx())] && on_feature[at(c.idx())] &&
+                           on_feature[at(d.idx())];
+      const Vec3d sampled = between ? sampled_normal(e) : Vec3d(0, 0, 0);
+      const auto cosine = [&](VertexHandle u, VertexHandle v, VertexHandle w) {
+        if (sampled.sqrnorm() == 0) return cosine_to_surface(u, v, w);
+        const Vec3d normal = cross(mesh_.point(v) - mesh_.point(u), mesh_.point(w) - mesh_.point(u));
+        const double lengths = normal.norm() * sampled.norm();
+        return lengths > 0 ? (normal | sampled) / lengths : 0;
+      };
+      const double now = std::min(cosine(a, b, c), cosine(b, a, d));
       const bool wanted = now <= turned_cosine || angle(c, a, b) + angle(d, a, b) > pi + 1e-6;
       if (!wanted || !mesh_.is_flip_ok(e)) continue;
-      const double then = std::min(cosine_to_surface(a, d, c), cosine_to_surface(d, b, c));
+      const double then = std::min(cosine(a, d, c), cosine(d, b, c));
       // Among triangles that are turned over, as where a strip around a hole is twisted, shorter is better.
       const bool shorter = (mesh_.point(d) - mesh_.point(c)).sqrnorm() <
                            (1 - 1e-6) * (mesh_.point(b) - mesh_.point(a)).sqrnorm();

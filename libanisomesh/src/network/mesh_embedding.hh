@@ -114,6 +114,7 @@ class MeshEmbedding final : public Embedding {
   bool is_as_at(int step, OpenMesh::VertexHandle v) const;
   bool is_topology_kept(OpenMesh::HalfedgeHandle h);
   bool is_shape_kept(OpenMesh::HalfedgeHandle h, Care care) const;
+  Vec3d sampled_normal(OpenMesh::EdgeHandle e) const;
   double cosine_to_surface(OpenMesh::VertexHandle a, OpenMesh::VertexHandle b,
                            OpenMesh::VertexHandle c) const;
   double lowest_cosine(OpenMesh::VertexHandle gone, OpenMesh::VertexHandle keep) const;

@@ -22,8 +22,8 @@ constexpr double kSame = 1e-3;  ///< logarithm: an epsilon so near to another on
 /// A count that falls by a smaller power of epsilon is not the density's any more: features, the border or
 /// what the tolerances ask for need as many, and a larger epsilon only spoils what is there.
 constexpr double kStalled = 0.2;
-/// But one step may also have met a bump in the count: so near to the target, a longer one shows which it is.
-constexpr double kNearTarget = 0.5;  ///< logarithm
+/// But one step may also have met a bump in the count, or epsilon be far below what the features ask for: a
+/// longer one shows which it is.
 constexpr double kLongStep = 2;
 constexpr double kLowest = 1e-8, kHighest = 0.5;  ///< epsilon, fraction of the extent
 
@@ -195,9 +195,10 @@ FoundEpsilon search_epsilon(double wanted, const TargetOptions& options, const E
       search.keep();
     }
     epsilon = next_epsilon(trials, search.crossings);
-    const bool looks_farther =
-        stalled && ++stalls == 1 && !is_coarsest && trials.back().log_ratio < kNearTarget;
-    if (looks_farther) epsilon = std::min(kHighest, kLongStep * std::exp(trials.back().log_epsilon));
+    const bool looks_farther = stalled && ++stalls == 1 && !is_coarsest;
+    if (looks_farther)
+      epsilon = std::min(kHighest, std::exp(trials.back().log_epsilon +
+                                            std::max(std::log(kLongStep), trials.back().log_ratio)));
     while (is_refused(epsilon, refused) && !is_tried(epsilon, trials))
       epsilon = after_refusal(epsilon, trials);
     const bool stuck = is_tried(epsilon, trials) || (made.is_least && trials.back().log_ratio > 0);
