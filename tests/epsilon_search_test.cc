@@ -232,10 +232,22 @@ TEST_CASE("a count that no epsilon brings down ends the search with the finer re
   MadeUp made;
   made.count = [](double epsilon) { return 3000 + 1e-4 / epsilon; };
   const auto found = made.search(1000);
-  CHECK(found.attempts == 2);
+  REQUIRE(found.attempts == 3);
   CHECK(made.asked[1] > made.asked[0]);
+  CHECK(made.asked[2] > 2.9 * made.asked[1]);  // as many times as there are too many
   CHECK(made.kept == made.asked[0]);
   CHECK_FALSE(found.met);
+}
+
+TEST_CASE("tolerances far below what features ask for do not end the search", "[epsilon_search]") {
+  MadeUp made;  // as that of a plate with engraved text: 9,941 and 7,318 faces for 2,000, and fewer beyond
+  made.count = [](double epsilon) {
+    return epsilon < 0.02 ? 4000 * std::pow(0.02 / epsilon, 0.18) : 4000 * std::pow(0.02 / epsilon, 0.8);
+  };
+  const auto found = made.search(1000);
+  REQUIRE(found.tried.size() > 2);
+  CHECK(found.tried[1].count > 4000);
+  CHECK(found.met);
 }
 
 TEST_CASE("a bump in the count near the target does not end the search", "[epsilon_search]") {
@@ -271,7 +283,7 @@ TEST_CASE("counts without a result lead to one all the same", "[epsilon_search]"
     made.asked.clear();
     made.keeps = 0;
     size_t in_the_end = 0;
-    made.refused = [&](double, size_t) { return made.asked.size() > 2 && in_the_end++ < refusals; };
+    made.refused = [&](double, size_t) { return made.asked.size() > 3 && in_the_end++ < refusals; };
     const auto far = made.search(1000);
     CHECK(!far.met);
     CHECK(made.keeps == 1);
