@@ -78,8 +78,6 @@ Vec3d PolygonJudge::surface_normal(const Vec2d& uv, const Vec3d& place, OpenMesh
   return normals_.at(locator_.locate(uv, place, start));
 }
 
-Vec3d PolygonJudge::surface_normal(const SurfacePoint& point) const { return normals_.at(point); }
-
 bool PolygonJudge::middle_of(const RegionCorners& region, int a, int b, Vec3d& place,
                              SurfacePoint& below) const {
   bool inside = false;

@@ -82,7 +82,6 @@ class PolygonJudge {
   static bool touches_itself(const std::vector<Vec3d>& corners);
   /// Normal of the surface near a place, see SurfaceLocator.
   Vec3d surface_normal(const Vec2d& uv, const Vec3d& place, OpenMesh::FaceHandle start) const;
-  Vec3d surface_normal(const SurfacePoint& point) const;
 
  private:
   /// Of an inner side of a polygon, which is a side of two.

@@ -214,7 +214,7 @@ bool RegionMesher::add_worst(SmallTriangulation& triangulation, RegionPolygons& 
   corners_.uv.push_back(chosen->uv);
   corners_.position.push_back(chosen->position);
   corners_.face.push_back(chosen->point.face);
-  corners_.corner_normal.push_back(judge_.surface_normal(chosen->point));
+  corners_.corner_normal.emplace_back(0, 0, 0);
   const SurfacePoint point = chosen->point;
   const auto index = chosen - region_.probes.data();
   region_.probes.erase(region_.probes.begin() + index);
