@@ -59,15 +59,11 @@ double angle_cost(double angle) {
 }  // namespace
 
 void RegionCorners::add(const NetworkGraph& network, int n) {
-  const auto& graph = network.graph;
-  bool on_feature = false;
-  for (int e = graph.first_edge(n); e >= 0; e = graph.next_edge(e, n))
-    on_feature |= graph.edge(e).kind == static_cast<int>(EdgeKind::feature);
   node.push_back(n);
-  uv.push_back(graph.uv(n));
+  uv.push_back(network.graph.uv(n));
   position.push_back(network.positions[at(n)]);
   face.push_back(network.points[at(n)].face);
-  corner_normal.push_back(on_feature ? Vec3d(0, 0, 0) : network.normals[at(n)]);
+  corner_normal.push_back(network.touches(n, EdgeKind::feature) ? Vec3d(0, 0, 0) : network.normals[at(n)]);
 }
 
 PolygonJudge::PolygonJudge(const SurfaceRef& surface, const SurfaceLocator& locator,

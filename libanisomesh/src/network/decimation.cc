@@ -59,7 +59,7 @@ class Decimator {
   std::vector<Vec3d> left_out_at(int edge) const;
   bool stays_near(const std::vector<Vec3d>& samples, int a, int b) const;
   void leave_out(const std::vector<Vec3d>& samples, int a, int b);
-  bool touches(int node, EdgeKind kind) const;
+  bool touches(int node, EdgeKind kind) const { return network_.touches(node, kind); }
   bool on_curve(int node) const {
     return touches(node, EdgeKind::border) || touches(node, EdgeKind::feature);
   }
@@ -228,12 +228,6 @@ void Decimator::straighten() {
     if (kept == removable.end()) return;
     removable.erase(kept, removable.end());
   }
-}
-
-bool Decimator::touches(int node, EdgeKind kind) const {
-  bool result = false;
-  visit_edges(node, [&](int e) { result |= graph_.edge(e).kind == static_cast<int>(kind); });
-  return result;
 }
 
 // Which of two nodes a contraction keeps: the higher.

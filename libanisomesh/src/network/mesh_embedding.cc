@@ -229,11 +229,15 @@ bool MeshEmbedding::take_out(VertexHandle v, Care care) {
   return false;
 }
 
-double MeshEmbedding::cosine_to_surface(VertexHandle a, VertexHandle b, VertexHandle c) const {
+double MeshEmbedding::cosine(VertexHandle a, VertexHandle b, VertexHandle c, const Vec3d& surface) const {
   const Vec3d normal = cross(mesh_.point(b) - mesh_.point(a), mesh_.point(c) - mesh_.point(a));
-  const Vec3d surface = node_normals_[at(a.idx())] + node_normals_[at(b.idx())] + node_normals_[at(c.idx())];
   const double lengths = normal.norm() * surface.norm();
   return lengths > 0 ? (normal | surface) / lengths : 0;
+}
+
+double MeshEmbedding::cosine_to_surface(VertexHandle a, VertexHandle b, VertexHandle c) const {
+  return cosine(a, b, c,
+                node_normals_[at(a.idx())] + node_normals_[at(b.idx())] + node_normals_[at(c.idx())]);
 }
 
 // Of the triangles that moving a vertex to another would leave, to the normals of the surface.
@@ -306,9 +310,7 @@ Vec3d MeshEmbedding::sampled_normal(OpenMesh::EdgeHandle e) const {
 void MeshEmbedding::flip(const NetworkGraph& network) {
   std::vector<char> on_feature(network.graph.n_nodes(), 0);
   for (size_t n = 0; n < on_feature.size(); ++n)
-    for (int e = network.graph.first_edge(static_cast<int>(n)); e >= 0;
-         e = network.graph.next_edge(e, static_cast<int>(n)))
-      on_feature[n] |= network.graph.edge(e).kind == static_cast<int>(EdgeKind::feature);
+    on_feature[n] = network.touches(static_cast<int>(n), EdgeKind::feature);
   const auto angle = [this](VertexHandle apex, VertexHandle a, VertexHandle b) {
     const Vec3d u = mesh_.point(a) - mesh_.point(apex), v = mesh_.point(b) - mesh_.point(apex);
     return std::atan2(cross(u, v).norm(), u | v);
@@ -328,16 +330,13 @@ void MeshEmbedding::flip(const NetworkGraph& network) {
       const bool between = on_feature[at(a.idx())] && on_feature[at(b.idx())] && on_feature[at(c.idx())] &&
                            on_feature[at(d.idx())];
       const Vec3d sampled = between ? sampled_normal(e) : Vec3d(0, 0, 0);
-      const auto cosine = [&](VertexHandle u, VertexHandle v, VertexHandle w) {
-        if (sampled.sqrnorm() == 0) return cosine_to_surface(u, v, w);
-        const Vec3d normal = cross(mesh_.point(v) - mesh_.point(u), mesh_.point(w) - mesh_.point(u));
-        const double lengths = normal.norm() * sampled.norm();
-        return lengths > 0 ? (normal | sampled) / lengths : 0;
+      const auto cosine_there = [&](VertexHandle u, VertexHandle v, VertexHandle w) {
+        return sampled.sqrnorm() == 0 ? cosine_to_surface(u, v, w) : cosine(u, v, w, sampled);
       };
-      const double now = std::min(cosine(a, b, c), cosine(b, a, d));
+      const double now = std::min(cosine_there(a, b, c), cosine_there(b, a, d));
       const bool wanted = now <= turned_cosine || angle(c, a, b) + angle(d, a, b) > pi + 1e-6;
       if (!wanted || !mesh_.is_flip_ok(e)) continue;
-      const double then = std::min(cosine(a, d, c), cosine(d, b, c));
+      const double then = std::min(cosine_there(a, d, c), cosine_there(d, b, c));
       // Among triangles that are turned over, as where a strip around a hole is twisted, shorter is better.
       const bool shorter = (mesh_.point(d) - mesh_.point(c)).sqrnorm() <
                            (1 - 1e-6) * (mesh_.point(b) - mesh_.point(a)).sqrnorm();

@@ -115,6 +115,9 @@ class MeshEmbedding final : public Embedding {
   bool is_topology_kept(OpenMesh::HalfedgeHandle h);
   bool is_shape_kept(OpenMesh::HalfedgeHandle h, Care care) const;
   Vec3d sampled_normal(OpenMesh::EdgeHandle e) const;
+  /// Of a triangle to a normal of the surface, of any length; 0 where one of them has none.
+  double cosine(OpenMesh::VertexHandle a, OpenMesh::VertexHandle b, OpenMesh::VertexHandle c,
+                const Vec3d& surface) const;
   double cosine_to_surface(OpenMesh::VertexHandle a, OpenMesh::VertexHandle b,
                            OpenMesh::VertexHandle c) const;
   double lowest_cosine(OpenMesh::VertexHandle gone, OpenMesh::VertexHandle keep) const;

@@ -26,6 +26,13 @@ struct NetworkGraph {
   std::vector<char> fixed;           ///< of each node: not to be removed (corners, isotropic samples)
   std::vector<double> share;         ///< of the tolerances that holds at each node; empty: all of them
   size_t crossings = 0;
+
+  /// Whether an edge of that kind ends at a node.
+  bool touches(int node, EdgeKind kind) const {
+    for (int e = graph.first_edge(node); e >= 0; e = graph.next_edge(e, node))
+      if (graph.edge(e).kind == static_cast<int>(kind)) return true;
+    return false;
+  }
 };
 
 /// \throw CannotProcess if the border or a feature crosses itself in the plane beyond what rounding explains
