@@ -166,14 +166,33 @@ std::vector<Piece> cut_convex(const RegionCorners& region) {
   return convex_partition({region.uv.begin(), region.uv.begin() + static_cast<std::ptrdiff_t>(region.loop)});
 }
 
-// Two parts of so many corners at least, by the shortest chord: that one leaves the surface least.
+// Sine of the angle between two directions, 1 where it is wide.
+double sine_between(const Vec3d& a, const Vec3d& b) {
+  const double lengths = a.norm() * b.norm();
+  if (!(lengths > 0)) return 0;
+  return (a | b) <= 0 ? 1 : cross(a, b).norm() / lengths;
+}
+
+// How steeply a chord leaves the four sides that it meets: 0 where it runs along one, 1 at right angles.
+double steepness(const RegionCorners& region, int i, int j) {
+  const int n = static_cast<int>(region.loop);
+  const auto place = [&](int k) -> const Vec3d& { return region.position[at((k + n) % n)]; };
+  const Vec3d chord = place(j) - place(i);
+  return std::min({sine_between(chord, place(i + 1) - place(i)), sine_between(chord, place(i - 1) - place(i)),
+                   sine_between(-chord, place(j + 1) - place(j)),
+                   sine_between(-chord, place(j - 1) - place(j))});
+}
+
+// Two parts of so many corners at least, by a chord that is short, since that leaves the surface least, and
+// steep: along a straight side one would cut off what has no area.
 std::vector<Piece> cut_in_two(const RegionCorners& region, int least) {
   const int n = static_cast<int>(region.loop);
   double shortest = std::numeric_limits<double>::infinity();
   int from = -1, to = -1;
   for (int i = 0; i < n; ++i)
     for (int j = i + least; j < n && n - (j - i) >= least; ++j) {
-      const double squared = (region.position[at(j)] - region.position[at(i)]).sqrnorm();
+      const double steep = steepness(region, i, j);
+      const double squared = (region.position[at(j)] - region.position[at(i)]).sqrnorm() / (steep * steep);
       if (!is_surely_less(squared, shortest) || region.is_forbidden(i, j) || !is_inner(region, i, j))
         continue;
       shortest = squared;

@@ -140,11 +140,15 @@ void take_more_care(const std::vector<std::vector<int>>& polygons, const Network
                       std::to_string(middle[2]) + "); smooth the input there or try a smaller epsilon");
 }
 
-void count_polygons(const std::vector<std::vector<int>>& polygons, MeshReport& report) {
+void count_polygons(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
+                    MeshReport& report) {
   std::vector<int> nodes;
   for (const auto& polygon : polygons) nodes.insert(nodes.end(), polygon.begin(), polygon.end());
   std::sort(nodes.begin(), nodes.end());
-  report.vertices = static_cast<size_t>(std::unique(nodes.begin(), nodes.end()) - nodes.begin());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  report.vertices = nodes.size();
+  report.on_features = static_cast<size_t>(std::count_if(
+      nodes.begin(), nodes.end(), [&](int n) { return network.touches(n, EdgeKind::feature); }));
   report.faces = polygons.size();
   report.triangles = report.quads = 0;
   for (const auto& polygon : polygons) {
@@ -177,8 +181,12 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
       return build_polygons(ordered, options, report, progress);
     });
   return detail::attempt_polygons(
-             surface, options, [](size_t, size_t) { return true; }, report, progress)
+             surface, options, [](const MeshReport&) { return true; }, report, progress)
       .mesh;
+}
+
+double detail::chain_tolerance_of(const MeshOptions& options, double epsilon) {
+  return options.chain_tolerance * (options.for_fit ? fitted_chains : 1) * epsilon;
 }
 
 detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const MeshOptions& given,
@@ -253,8 +261,8 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
       unsound = soundness.folded(polygons, network, *reference);
     }
     if (unsound.empty()) break;
-    count_polygons(polygons, local);
-    if (!is_wanted(local.vertices, local.faces)) {
+    count_polygons(polygons, network, local);
+    if (!is_wanted(local)) {
       local.seconds = total.lap();
       if (report) *report = local;
       return {};
@@ -268,7 +276,7 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
   local.polygon_seconds += stopwatch.lap();
   report_progress(progress, 1);
 
-  count_polygons(polygons, local);
+  count_polygons(polygons, network, local);
   local.seconds = total.lap();
   if (report) *report = local;
   return done;

@@ -8,7 +8,7 @@
 namespace anisomesh::detail {
 
 /// Whether a mesh with so many vertices and faces is wanted.
-using IsWanted = std::function<bool(size_t vertices, size_t faces)>;
+using IsWanted = std::function<bool(const MeshReport&)>;
 
 struct PolygonAttempt {
   OpenMesh::PolyMesh mesh;  ///< empty unless sound
@@ -19,5 +19,8 @@ struct PolygonAttempt {
 /// number is not wanted. The report has their number in any case.
 PolygonAttempt attempt_polygons(const SurfaceRef& surface, const MeshOptions& options,
                                 const IsWanted& is_wanted, MeshReport* report, const Progress& progress);
+
+/// How nearly chains are followed where lines are traced with this epsilon; both in the same unit.
+double chain_tolerance_of(const MeshOptions& options, double epsilon);
 
 }  // namespace anisomesh::detail

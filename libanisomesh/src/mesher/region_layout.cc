@@ -47,6 +47,14 @@ bool is_unfolded(const RegionCorners& corners, const std::vector<std::array<int,
   });
 }
 
+// Two sides on one straight line do not meet where they are apart on it; the turns there are rounding.
+bool are_apart(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
+  for (int k = 0; k < 2; ++k)
+    if (std::max(a[k], b[k]) < std::min(c[k], d[k]) || std::max(c[k], d[k]) < std::min(a[k], b[k]))
+      return true;
+  return turn(a, b, c) * turn(a, b, d) > 0 || turn(c, d, a) * turn(c, d, b) > 0;
+}
+
 // The loop encloses an area on its left and no two of its sides meet.
 bool is_simple(const RegionCorners& corners) {
   const size_t n = corners.loop;
@@ -56,9 +64,8 @@ bool is_simple(const RegionCorners& corners) {
   for (size_t i = 0; i < n; ++i)
     for (size_t k = i + 2; k < n; ++k) {
       if (i == 0 && k == n - 1) continue;
-      const Vec2d &a = corners.uv[i], &b = corners.uv[(i + 1) % n];
-      const Vec2d &c = corners.uv[k], &d = corners.uv[(k + 1) % n];
-      if (turn(a, b, c) * turn(a, b, d) <= 0 && turn(c, d, a) * turn(c, d, b) <= 0) return false;
+      if (!are_apart(corners.uv[i], corners.uv[(i + 1) % n], corners.uv[k], corners.uv[(k + 1) % n]))
+        return false;
     }
   return true;
 }
@@ -105,7 +112,7 @@ void lay_out(RegionCorners& corners) {
 // lies between the corners would not be drawn between them.
 bool cut_anew(Region& region) {
   const RegionCorners& corners = region.corners;
-  if (region.isotropic > 0 || !is_simple(corners)) return false;
+  if (!is_simple(corners)) return false;
   for (const Vec3d& n : corners.corner_normal)
     if (n.sqrnorm() > 0 && (n | corners.normal) < least_cosine) return false;
   std::vector<std::array<int, 3>> triangles;
@@ -115,6 +122,7 @@ bool cut_anew(Region& region) {
       if (region.corners.is_forbidden(t[k], t[(k + 1) % 3])) return false;
   }
   region.triangles = std::move(triangles);
+  region.holds_samples = false;
   return true;
 }
 

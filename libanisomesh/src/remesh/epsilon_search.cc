@@ -11,9 +11,6 @@ namespace anisomesh::detail {
 
 namespace {
 
-/// Faces or vertices for each crossing that the density asks for: the median over the nine discs of the
-/// benchmarks at 1,000 and 4,000 faces. Above 1 since spacings may change only slowly from place to place.
-constexpr double kFirstRatio = 1.8;
 /// Where polygons cannot be made, those of an epsilon so much smaller often can, a few times.
 constexpr double kNextAfterRefusal = 0.85;
 constexpr size_t kMostRefusals = 4, kFewRefusals = 3;

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,11 @@
 #include "anisomesh/remesh.hh"
 #include "lines/crossing_model.hh"
 #include "mesher/polygon_attempt.hh"
+#include "prepare/feature_tolerance.hh"
 #include "remesh/epsilon_search.hh"
+#include "remesh/feature_model.hh"
 #include "surface/canonical_copy.hh"
+#include "surface/recorded.hh"
 
 namespace anisomesh {
 
@@ -69,6 +73,39 @@ size_t least_vertices(const OpenMesh::TriConnectivity& mesh) {
   return count;
 }
 
+/// ... but where two triangles and so many vertices around them all lie on features; a fifth of these go.
+constexpr double kAround = 8, kWalled = 0.8;
+
+double share_of(size_t some, size_t all) {
+  return all == 0 ? 0 : static_cast<double>(some) / static_cast<double>(all);
+}
+
+/// Of all that is wanted: what corners of features take at most, where the search begins.
+constexpr double kMostCorners = 0.5;
+
+/// What features need that are followed as nearly as epsilon asks for.
+class FoundFeatures {
+ public:
+  FoundFeatures(const SurfaceRef& surface, const MeshOptions& options) : options_(options) {
+    const bool asked = options.feature_tolerance > 0 ||
+                       detail::recorded(surface.connectivity(), property::feature_tolerance,
+                                        detail::asked_feature_tolerance) < detail::found_feature_tolerance;
+    if (!asked) model_.emplace(surface, options.corner_angle_degrees);
+  }
+
+  /// Vertices, as far as the search should reckon with them. \param epsilon model units
+  double needed(double wanted, double epsilon) const {
+    if (!model_) return 0;
+    return std::min(model_->corners(), kMostCorners * wanted) +
+           model_->count(detail::chain_tolerance_of(options_, epsilon));
+  }
+  bool are_found() const { return model_.has_value(); }
+
+ private:
+  const MeshOptions& options_;
+  std::optional<detail::FeatureModel> model_;
+};
+
 }  // namespace
 
 void TargetOptions::validate() const {
@@ -110,10 +147,16 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   auto& connectivity = surface.connectivity();
   const double euler = static_cast<double>(connectivity.n_vertices() + connectivity.n_faces()) -
                        static_cast<double>(connectivity.n_edges());
-  const auto count_of = [&](size_t vertices, size_t faces) {
-    if (target.target_faces == 0) return vertices;
-    const double left = kFacesLeft * std::max(0.0, static_cast<double>(vertices) - euler);
-    return balanced && mesh.max_degree == 4 ? std::min(faces, static_cast<size_t>(left)) : faces;
+  const FoundFeatures features(surface, polygons);
+  // The balance makes quads of triangles, but for those with features all around: no vertex goes from these.
+  const auto count_of = [&](const MeshReport& made) {
+    if (target.target_faces == 0) return made.vertices;
+    const double quads = std::max(0.0, static_cast<double>(made.vertices) - euler);
+    const double walled =
+        features.are_found() ? kWalled * std::pow(share_of(made.on_features, made.vertices), kAround) : 0;
+    const double left =
+        std::max(kFacesLeft * quads, quads + walled * (static_cast<double>(made.faces) - quads));
+    return balanced && mesh.max_degree == 4 ? std::min(made.faces, static_cast<size_t>(left)) : made.faces;
   };
   // With `any` count, or only one that is near the target, worth being made sound.
   const auto run = [&](double from, double to, bool any) {
@@ -126,9 +169,8 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
       connectivity.property(provide_property(connectivity, property::cell_tolerance)) =
           polygons.cell_tolerance;
     }
-    const auto is_wanted = [&](size_t vertices, size_t faces) {
-      const double count = static_cast<double>(count_of(vertices, faces));
-      return any || std::abs(count / wanted - 1) <= kWanted;
+    const auto is_wanted = [&](const MeshReport& made) {
+      return any || std::abs(static_cast<double>(count_of(made)) / wanted - 1) <= kWanted;
     };
     return detail::attempt_polygons(surface, polygons, is_wanted, &done.mesh,
                                     sub_progress(progress, from + 0.6 * span, to));
@@ -152,7 +194,10 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   // For as many crossings there are fewer polygons where tolerances are wider.
   const double share = !mesh.for_fit ? 1 : target.target_faces > 0 ? kFacesForFit : kForFit;
   // In fractions of the extent, so that the same ones are tried however the surface is turned.
-  search.crossings = [&](double epsilon) { return share * model.count(epsilon * surface.extent()); };
+  search.crossings = [&](double fraction) {
+    const double epsilon = fraction * surface.extent();
+    return share * model.count(epsilon) + features.needed(wanted, epsilon) / detail::kFirstRatio;
+  };
   size_t in_vain = 0;
   search.is_spent = [&] { return in_vain > kMostInVain; };
   if (balanced && target.coarsen)
@@ -172,7 +217,7 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     }
     last = std::move(attempt.mesh);
     return detail::EpsilonSearch::Made{
-        count_of(done.mesh.vertices, done.mesh.faces), attempt.sound,
+        count_of(done.mesh), attempt.sound,
         static_cast<double>(done.mesh.vertices) <= kHardlyMore * static_cast<double>(least)};
   };
   search.keep = [&] {
@@ -193,7 +238,7 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     surface.connectivity().property(epsilon) = done.epsilon_fraction * diagonal;
   }
   // What is too much because features, say, ask for as many, the balance takes out as far as that is cheap.
-  const bool too_many = static_cast<double>(count_of(done.mesh.vertices, done.mesh.faces)) > wanted;
+  const bool too_many = static_cast<double>(count_of(done.mesh)) > wanted;
   if (balanced && (found.met || (target.coarsen && too_many))) {
     const auto leave = [&](const auto& declaration, size_t count) {
       connectivity.property(provide_property(connectivity, declaration)) = static_cast<int>(count);
