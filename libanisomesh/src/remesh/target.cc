@@ -73,6 +73,8 @@ size_t least_vertices(const OpenMesh::TriConnectivity& mesh) {
   return count;
 }
 
+/// Features get no vertices there, though: rather too many, by so much of what is aimed at.
+constexpr double kAimAtFeatures = 1.06, kEnoughAtFeatures = 0.05;
 /// ... but where two triangles and so many vertices around them all lie on features; a fifth of these go.
 constexpr double kAround = 8, kWalled = 0.8;
 
@@ -99,7 +101,7 @@ class FoundFeatures {
     return std::min(model_->corners(), kMostCorners * wanted) +
            model_->count(detail::chain_tolerance_of(options_, epsilon));
   }
-  bool are_found() const { return model_.has_value(); }
+  bool are_found() const { return model_ && model_->corners() + model_->count(0) > 0; }
 
  private:
   const MeshOptions& options_;
@@ -191,6 +193,8 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   bool is_last_best = false;
   detail::EpsilonSearch search;
   if (balanced) search.enough_below = kEnoughBelow, search.enough_above = kEnoughAbove;
+  const double aim = balanced && features.are_found() ? kAimAtFeatures * wanted : wanted;
+  if (aim > wanted) search.enough_below = search.enough_above = kEnoughAtFeatures;
   // For as many crossings there are fewer polygons where tolerances are wider.
   const double share = !mesh.for_fit ? 1 : target.target_faces > 0 ? kFacesForFit : kForFit;
   // In fractions of the extent, so that the same ones are tried however the surface is turned.
@@ -226,7 +230,7 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
     lines_of_best = read_lines(surface);
     is_last_best = true;
   };
-  const detail::FoundEpsilon found = detail::search_epsilon(wanted, target, search);
+  const detail::FoundEpsilon found = detail::search_epsilon(aim, target, search);
   done = of_best;
   done.attempts = found.attempts;
   done.tried = found.tried;
