@@ -81,6 +81,7 @@ fitted_stages_give_the_same_bytes)
   anisomesh-shapes -q wave --vertices 2000 --irregular -o wave.off
   anisomesh-shapes -q octa-flower --vertices 2000 --irregular -o flower.om
   anisomesh-shapes -q torus --vertices 2000 -o torus.off
+  anisomesh-shapes -q cube --vertices 600 -o cube.off
   for run in "wave.off|--target-faces 300|" "wave.off|--target-vertices 300 --follow min-abs|--balance 3" \
     "flower.om|--epsilon 0.002|--fit-passes 2 --balance 1" "torus.off|--target-faces 200|--balance 0"; do
     IFS='|' read -r input density fit <<<"$run"
@@ -96,6 +97,11 @@ fitted_stages_give_the_same_bytes)
     cmp row.om plain.om || fail "$run, without the fit"
     ! cmp -s plain.om one.om || fail "$run does nothing"
   done
+  # a grid, which is divided before it is fitted, and which a fit has nothing to do on
+  TRACE="--target-faces 300" MESH=""
+  in_a_row cube.off row.om
+  anisomesh-remesh -q cube.off -o one.om --target-faces 300
+  cmp row.om one.om || fail "a cube with more faces than it needs"
   ;;
 
 threads_change_nothing)
@@ -155,6 +161,7 @@ any_surface)
   # closed; of genus 1; two components; an annulus
   anisomesh-shapes -q ellipsoid --vertices 2000 --irregular -o ellipsoid.off
   anisomesh-shapes -q torus --vertices 2000 -o torus.off
+  anisomesh-shapes -q cube --vertices 600 -o cube.off
   printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n3 0 1 2\n3 3 4 5\n' >two.off
   printf 'OFF\n6 6 0\n0 0 0\n4 0 0\n0 4 0\n1 1 0\n2 1 0\n1 2 0\n3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n3 2 0 3\n3 2 3 5\n' >annulus.off
   for name in ellipsoid torus two annulus; do

@@ -32,6 +32,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr int passes_before = 2, passes_between = 1;
 constexpr int more_rounds = 3;  // where there are too many after those asked for
 constexpr double near_enough = 0.05;
+/// Fraction of the diagonal: what is the surface itself, but for rounding, nothing makes better.
+constexpr double exact_rms = 1e-9;
 /// Taken out at once where there are far too many, those that cost least then; and what a round must take out
 /// of all for another to follow.
 constexpr double most_at_once = 0.15, least_at_once = 0.02;
@@ -283,6 +285,11 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
   OpenMesh::PolyMesh fitted;
   double rms_fitted = 0;
   report.fit.rms_before = balance.rms();
+  if (report.fit.rms_before < exact_rms && balance.wanted().is_met(result, detail::kMet)) {
+    report.fit.rms_after = report.fit.rms_before;
+    report_progress(progress, 1);
+    return report;
+  }
   const bool change = options.rounds > 0 && (options.max_degree == 3 || options.max_degree == 4);
   const bool coarsened = change && balance.coarsen(progress);
   for (int round = 0; change && round < options.rounds + more_rounds; ++round) {

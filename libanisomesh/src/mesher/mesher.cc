@@ -9,6 +9,7 @@
 
 #include "anisomesh/errors.hh"
 #include "anisomesh/properties.hh"
+#include "mesher/grids.hh"
 #include "mesher/joining.hh"
 #include "mesher/polygon_attempt.hh"
 #include "mesher/polygon_output.hh"
@@ -180,9 +181,17 @@ OpenMesh::PolyMesh build_polygons(const SurfaceRef& surface, const MeshOptions& 
     return detail::make_in_canonical_order(surface, [&](const SurfaceRef& ordered) {
       return build_polygons(ordered, options, report, progress);
     });
-  return detail::attempt_polygons(
-             surface, options, [](const MeshReport&) { return true; }, report, progress)
-      .mesh;
+  MeshReport local;
+  MeshReport& done = report ? *report : local;
+  OpenMesh::PolyMesh result = detail::attempt_polygons(
+                                  surface, options, [](const MeshReport&) { return true; }, &done, progress)
+                                  .mesh;
+  const auto wanted = [&](const auto& declaration) {
+    return static_cast<size_t>(detail::recorded(surface.connectivity(), declaration, 0));
+  };
+  detail::divide_into_grids(surface, options, wanted(property::target_faces),
+                            wanted(property::target_vertices), result, done);
+  return result;
 }
 
 double detail::chain_tolerance_of(const MeshOptions& options, double epsilon) {

@@ -10,6 +10,7 @@
 #include "anisomesh/properties.hh"
 #include "anisomesh/remesh.hh"
 #include "lines/crossing_model.hh"
+#include "mesher/grids.hh"
 #include "mesher/polygon_attempt.hh"
 #include "prepare/feature_tolerance.hh"
 #include "remesh/epsilon_search.hh"
@@ -243,7 +244,13 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   }
   // What is too much because features, say, ask for as many, the balance takes out as far as that is cheap.
   const bool too_many = static_cast<double>(count_of(done.mesh)) > wanted;
-  if (balanced && (found.met || (target.coarsen && too_many))) {
+  const bool divided =
+      detail::divide_into_grids(surface, mesh, target.target_faces, target.target_vertices, best, done.mesh);
+  if (divided) {
+    const size_t count = target.target_faces > 0 ? done.mesh.faces : done.mesh.vertices;
+    done.target_met = std::abs(static_cast<double>(count) / wanted - 1) <= detail::kMet;
+  }
+  if (divided || (balanced && (found.met || (target.coarsen && too_many)))) {
     const auto leave = [&](const auto& declaration, size_t count) {
       connectivity.property(provide_property(connectivity, declaration)) = static_cast<int>(count);
     };
