@@ -44,7 +44,7 @@ TEST_CASE("a balanced result has less error than a fitted one, with as many vert
   fit_vertices(mesh, fitted);
   const BalanceReport report = balance_vertices(mesh, result);
   const Comparison fit = compare(mesh, fitted), balanced = compare(mesh, result);
-  CHECK(balanced.two_sided.rms < 1.02 * fit.two_sided.rms);
+  CHECK(balanced.two_sided.rms < 1.02 * fit.two_sided.rms + 1e-9);  // 0 on the cube, but for rounding
   CHECK(std::abs(report.fit.rms_after - balanced.two_sided.rms) < 0.2 * balanced.two_sided.rms + 1e-6);
   CHECK(std::abs(static_cast<double>(result.n_vertices()) - vertices) <= 2);
   CHECK(feature_distance(mesh, result) <= std::max(farthest, 5e-4 * SurfaceRef(mesh).diagonal()));
