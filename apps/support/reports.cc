@@ -121,7 +121,6 @@ Json to_json(const MeshReport& r) {
           {"faces", r.faces},
           {"quads", r.quads},
           {"triangles", r.triangles},
-          {"on_features", r.on_features},
           {"crossings", r.crossings},
           {"trimmed", r.trimmed},
           {"straightened", r.straightened},

@@ -48,7 +48,6 @@ struct MeshOptions {
 
 struct MeshReport {
   size_t vertices = 0, faces = 0, quads = 0, triangles = 0;
-  size_t on_features = 0;   ///< vertices
   size_t crossings = 0;     ///< intersections of lines found
   size_t trimmed = 0;       ///< samples removed as dangling or isolated
   size_t straightened = 0;  ///< samples removed on chains

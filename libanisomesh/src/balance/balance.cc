@@ -9,6 +9,7 @@
 
 #include "anisomesh/errors.hh"
 #include "anisomesh/properties.hh"
+#include "balance/faces_left.hh"
 #include "balance/far_moves.hh"
 #include "balance/patch_changes.hh"
 #include "balance/quad_splits.hh"
@@ -30,7 +31,7 @@ using detail::PatchMove;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr int passes_before = 2, passes_between = 1;
-constexpr int more_rounds = 3;  // where there are too many after those asked for
+constexpr int more_rounds = 3;  // where the number is not met after those asked for
 constexpr double near_enough = 0.05;
 /// Fraction of the diagonal: what is the surface itself, but for rounding, nothing makes better.
 constexpr double exact_rms = 1e-9;
@@ -86,9 +87,10 @@ struct Wanted {
     if (vertices + faces == 0) vertices = result.n_vertices();
   }
 
-  /// Vertices that are too many: each stands for about as many faces as there are for one.
-  long surplus(const OpenMesh::PolyMesh& mesh) const {
-    const auto n = static_cast<double>(mesh.n_vertices()), f = static_cast<double>(mesh.n_faces());
+  /// Vertices that are too many: each stands for about as many faces as there are for one. \param left faces
+  /// that there will be without that
+  long surplus(const OpenMesh::PolyMesh& mesh, size_t left) const {
+    const auto n = static_cast<double>(mesh.n_vertices()), f = static_cast<double>(left);
     if (faces > 0) return std::lround((f - static_cast<double>(faces)) * n / f);
     return static_cast<long>(mesh.n_vertices()) - static_cast<long>(vertices);
   }
@@ -160,7 +162,7 @@ class Balance {
     const detail::PatchMoves moves(surface_, input_, *state_, options_);
     const PatchMesh start(work_);
     const auto at_once = static_cast<long>(most_at_once * static_cast<double>(work_.n_vertices()));
-    const long surplus = std::min(wanted_.surplus(work_), at_once);
+    const long surplus = std::min(wanted_.surplus(work_, faces_left()), at_once);
     const auto removals = moves.removals(start, surplus == at_once),
                additions = moves.additions(start, surplus < 0),
                far = detail::FarMoves(reference_, *state_, options_).repartitions(start),
@@ -234,6 +236,12 @@ class Balance {
   }
 
  private:
+  /// Triangles that the mesher left become quads in the first round, and stay those that cannot.
+  size_t faces_left() const {
+    const size_t n = work_.n_vertices(), f = work_.n_faces();
+    if (report_.parted > 0 || options_.max_degree != 4) return f;
+    return detail::faces_left(f, n, static_cast<double>(n + f) - static_cast<double>(work_.n_edges()));
+  }
   static void part(PatchChanges& changes, const std::vector<PatchMove>& moves, BalanceReport& report) {
     for (const PatchMove& move : moves)
       if (changes.is_open(move)) changes.apply(move), ++report.parted;
@@ -293,7 +301,7 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
   const bool change = options.rounds > 0 && (options.max_degree == 3 || options.max_degree == 4);
   const bool coarsened = change && balance.coarsen(progress);
   for (int round = 0; change && round < options.rounds + more_rounds; ++round) {
-    if (round >= options.rounds && !balance.wanted().is_exceeded(balance.work(), near_enough)) break;
+    if (round >= options.rounds && balance.wanted().is_met(balance.work(), near_enough)) break;
     report_progress(progress, std::min(round, options.rounds) / (options.rounds + 1.0));
     balance.fit(round == 0 ? passes_before : passes_between);
     if (round == 0) fitted = balance.work(), rms_fitted = balance.rms();

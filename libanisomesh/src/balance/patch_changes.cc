@@ -33,14 +33,15 @@ void PatchChanges::apply(const PatchMove& move) {
   auto pieces = move.pieces;
   if (move.adds) {
     places_.insert(key(move.place));
-    const int middle = mesh_.add_vertex(move.place, move.source);
+    const int middle = move.between[0] < 0 ? mesh_.add_vertex(move.place, move.source)
+                                           : mesh_.add_vertex_on_curve(move.place, move.source, move.between);
     for (auto& piece : pieces)
       for (int& v : piece)
         if (v < 0) v = middle;
   }
   for (const int p : move.patch.polygons) touched_[at(p)] = 1;
   taken_.push_back({&move, move.patch.polygons, static_cast<int>(mesh_.polygons().size())});
-  mesh_.replace(move.patch, pieces);
+  mesh_.replace(move.patch, pieces, move.on_first_side);
   touched_.resize(mesh_.polygons().size(), 1);
 }
 

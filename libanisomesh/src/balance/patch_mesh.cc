@@ -77,6 +77,113 @@ PatchMesh::Patch PatchMesh::star(int vertex) const {
   return patch;
 }
 
+// The others on the sides of curves at a vertex, each once.
+std::vector<int> PatchMesh::beside_on_curve(int v) const {
+  std::vector<int> found;
+  for (const int p : vertices_[at(v)].polygons) {
+    const auto& polygon = polygons_[at(p)];
+    const size_t n = polygon.size();
+    for (size_t i = 0; i < n; ++i)
+      for (const int w : {polygon[(i + 1) % n], polygon[(i + n - 1) % n]})
+        if (polygon[i] == v && is_on_curve(v, w) && !contains(found, w)) found.push_back(w);
+  }
+  return found;
+}
+
+// Polygons on one side of a curve around a vertex of it, counter-clockwise from the side to `from` to that to
+// `to`, and the ring without the vertex, which begins with the side from `to` to `from` that takes its place.
+// Where the only polygon is a triangle, the one beyond takes its place.
+PatchMesh::Patch PatchMesh::beside_curve(int v, int from, int to) const {
+  std::vector<int> fan;
+  for (int w = from; w != to;) {
+    const auto& around = vertices_[at(v)].polygons;
+    const auto found = std::find_if(around.begin(), around.end(), [&](int p) {
+      const auto& polygon = polygons_[at(p)];
+      const auto corner = std::find(polygon.begin(), polygon.end(), v);
+      return (corner + 1 == polygon.end() ? polygon.front() : *(corner + 1)) == w;
+    });
+    if (found == around.end() || contains(fan, *found)) return {};
+    const auto& polygon = polygons_[at(*found)];
+    const auto corner = std::find(polygon.begin(), polygon.end(), v);
+    w = corner == polygon.begin() ? polygon.back() : *(corner - 1);
+    fan.push_back(*found);
+  }
+  if (fan.size() == 1 && polygons_[at(fan.front())].size() == 3) {
+    fan.push_back(across(from, to));
+    if (fan.back() < 0 || contains(vertices_[at(v)].polygons, fan.back())) return {};
+  }
+  Patch side = with_ring(fan);
+  const auto place = std::find(side.ring.begin(), side.ring.end(), v);
+  if (place == side.ring.end()) return {};
+  std::rotate(side.ring.begin(), place, side.ring.end());
+  side.ring.erase(side.ring.begin());  // from ... to
+  if (side.ring.size() < 3 || side.ring.front() != from || side.ring.back() != to) return {};
+  std::rotate(side.ring.begin(), side.ring.end() - 1, side.ring.end());
+  return side;
+}
+
+PatchMesh::CurveStar PatchMesh::curve_star(int vertex) const {
+  const Vertex& v = vertices_[at(vertex)];
+  if (!v.on_curve || v.origin == static_cast<int>(Origin::corner)) return {};
+  const std::vector<int> ends = beside_on_curve(vertex);
+  if (ends.size() != 2 || kind_.at(key(vertex, ends[0])) != kind_.at(key(vertex, ends[1]))) return {};
+  CurveStar star;
+  size_t found = 0;
+  for (const int i : {0, 1}) {
+    Patch side = beside_curve(vertex, ends[at(i)], ends[at(1 - i)]);
+    if (side.ring.empty()) continue;
+    found += at(static_cast<int>(std::count_if(side.polygons.begin(), side.polygons.end(),
+                                               [&](int p) { return contains(v.polygons, p); })));
+    star.sides.push_back(std::move(side));
+  }
+  if (found != v.polygons.size()) return {};
+  Patch whole = star.sides.front();
+  whole.bridge = {ends[0], ends[1]};
+  if (star.sides.size() == 2) {
+    const Patch& other = star.sides.back();
+    whole.on_first_side = whole.polygons.size();
+    whole.polygons.insert(whole.polygons.end(), other.polygons.begin(), other.polygons.end());
+    std::rotate(whole.ring.begin(), whole.ring.begin() + 1, whole.ring.end());
+    for (size_t i = 2; i < other.ring.size(); ++i) {
+      if (contains(whole.ring, other.ring[i])) return {};
+      whole.ring.push_back(other.ring[i]);
+    }
+  }
+  if (inner_vertices(whole) != std::vector<int>{vertex}) return {};
+  star.whole = std::move(whole);
+  return star;
+}
+
+PatchMesh::CurveStar PatchMesh::curve_side(int v, int w) const {
+  CurveStar star;
+  std::vector<int> rings[2];  // from the one end to the other, the long way
+  for (const auto& [from, to] : {std::pair(v, w), std::pair(w, v)}) {
+    for (const int p : vertices_[at(from)].polygons) {
+      std::vector<int> ring = polygons_[at(p)];
+      const auto corner = std::find(ring.begin(), ring.end(), to);
+      if (corner == ring.end()) continue;
+      std::rotate(ring.begin(), corner, ring.end());
+      if (ring.back() != from) continue;
+      rings[star.sides.size()] = ring;
+      ring.push_back(-1);
+      star.sides.push_back({{p}, std::move(ring)});
+      break;
+    }
+  }
+  if (star.sides.empty()) return star;
+  Patch& whole = star.whole;
+  whole.ring = std::move(rings[0]);
+  whole.polygons = star.sides.front().polygons;
+  if (star.sides.size() == 1) return star;
+  whole.on_first_side = 1;
+  whole.polygons.push_back(star.sides.back().polygons.front());
+  for (size_t i = 1; i + 1 < rings[1].size(); ++i) {
+    if (contains(whole.ring, rings[1][i])) return {};
+    whole.ring.push_back(rings[1][i]);
+  }
+  return star;
+}
+
 PatchMesh::Patch PatchMesh::join(const std::vector<int>& polygons) const { return with_ring(polygons); }
 
 PatchMesh::Patch PatchMesh::with_ring(std::vector<int> polygons) const {
@@ -107,6 +214,7 @@ PatchMesh::Patch PatchMesh::with_ring(std::vector<int> polygons) const {
 }
 
 bool PatchMesh::joined_outside(const Patch& patch, int v, int w) const {
+  if (v < 0 || w < 0) return false;
   for (const int p : vertices_[at(v)].polygons) {
     if (contains(patch.polygons, p)) continue;
     const auto& polygon = polygons_[at(p)];
@@ -119,7 +227,7 @@ bool PatchMesh::joined_outside(const Patch& patch, int v, int w) const {
 }
 
 // Along a straight feature, say: on both sides of a fin that ends in one its polygons would share that edge.
-bool PatchMesh::passes_a_vertex(int v, int w) const {
+bool PatchMesh::passes_a_vertex(int v, int w, const std::vector<int>& but) const {
   const auto beside = [&](int u, const auto& visit) {
     for (const int p : vertices_[at(u)].polygons) {
       const auto& polygon = polygons_[at(p)];
@@ -130,7 +238,7 @@ bool PatchMesh::passes_a_vertex(int v, int w) const {
   };
   bool found = false;
   beside(v, [&](int m) {
-    if (m == w || !is_on_segment(point(m), point(v), point(w))) return;
+    if (m == w || contains(but, m) || !is_on_segment(point(m), point(v), point(w))) return;
     beside(w, [&](int k) { found |= k == m; });
   });
   return found;
@@ -153,6 +261,15 @@ int PatchMesh::edges_outside(const Patch& patch, int v) const {
       std::count_if(ends.begin(), ends.end(), [&](int w) { return !contains(inside, w); }));
 }
 
+// Vertices of the polygons that are not of the ring, so that they go with them.
+std::vector<int> PatchMesh::inner_vertices(const Patch& patch) const {
+  std::vector<int> inside;
+  for (const int p : patch.polygons)
+    for (const int v : polygons_[at(p)])
+      if (!contains(patch.ring, v) && !contains(inside, v)) inside.push_back(v);
+  return inside;
+}
+
 std::vector<char> PatchMesh::forbidden_chords(const Patch& patch) const {
   const size_t n = patch.ring.size();
   std::vector<char> forbidden(n * n, 0);
@@ -164,6 +281,11 @@ std::vector<char> PatchMesh::forbidden_chords(const Patch& patch) const {
 
 bool PatchMesh::may_replace(const Patch& patch, const std::vector<std::vector<int>>& pieces) const {
   const size_t n = patch.ring.size();
+  const std::vector<int> inside = inner_vertices(patch);
+  const auto may_join = [&](int v, int w) {
+    return !joined_outside(patch, v, w) && !passes_a_vertex(v, w, inside);
+  };
+  if (patch.bridge[0] >= 0 && !may_join(patch.bridge[0], patch.bridge[1])) return false;
   std::vector<int> edges(n, 1);  // of k pieces at a vertex of the ring: k + 1
   for (const auto& piece : pieces)
     for (size_t i = 0; i < piece.size(); ++i) {
@@ -173,7 +295,7 @@ bool PatchMesh::may_replace(const Patch& patch, const std::vector<std::vector<in
       const auto place = static_cast<size_t>(in_ring - patch.ring.begin());
       ++edges[place];
       const bool side = patch.ring[(place + 1) % n] == w || patch.ring[(place + n - 1) % n] == w;
-      if (w >= 0 && !side && (joined_outside(patch, v, w) || passes_a_vertex(v, w))) return false;
+      if (w >= 0 && !side && !may_join(v, w)) return false;
     }
   for (size_t i = 0; i < n; ++i)
     if (!vertices_[at(patch.ring[i])].on_curve && edges[i] + edges_outside(patch, patch.ring[i]) < 3)
@@ -186,15 +308,42 @@ int PatchMesh::add_vertex(const Vec3d& point, const SurfacePoint& source) {
   return static_cast<int>(vertices_.size()) - 1;
 }
 
-void PatchMesh::replace(const Patch& patch, const std::vector<std::vector<int>>& pieces) {
-  const int first = static_cast<int>(polygons_.size());
-  for (const int p : patch.polygons) {
+int PatchMesh::add_vertex_on_curve(const Vec3d& point, const SurfacePoint& source,
+                                   const std::array<int, 2>& ends) {
+  const int v = add_vertex(point, source), kind = kind_.at(key(ends[0], ends[1]));
+  const bool border = kind == static_cast<int>(EdgeKind::border);
+  vertices_[at(v)].origin = static_cast<int>(border ? Origin::border : Origin::feature);
+  vertices_[at(v)].on_curve = true;
+  kind_.erase(key(ends[0], ends[1]));
+  curve_.erase(key(ends[0], ends[1]));
+  for (const int end : ends) {
+    kind_[key(v, end)] = kind;
+    curve_[key(v, end)] = 1;
+  }
+  return v;
+}
+
+void PatchMesh::replace(const Patch& patch, const std::vector<std::vector<int>>& pieces,
+                        size_t on_first_side) {
+  const int first = static_cast<int>(polygons_.size()), end = first + static_cast<int>(pieces.size()),
+            middle = first + static_cast<int>(on_first_side);
+  if (const auto [v, w] = patch.bridge; v >= 0) {
+    const std::vector<int> gone = inner_vertices(patch);
+    kind_[key(v, w)] = kind_.at(key(v, gone.front()));
+    curve_[key(v, w)] = 1;
+  }
+  for (size_t i = 0; i < patch.polygons.size(); ++i) {
+    const int p = patch.polygons[i];
     for (const int v : polygons_[at(p)]) {
       auto& at_vertex = vertices_[at(v)].polygons;
       at_vertex.erase(std::remove(at_vertex.begin(), at_vertex.end(), p), at_vertex.end());
     }
     polygons_[at(p)].clear();
-    if (at(p) < heirs_.size()) heirs_[at(p)] = {first, first + static_cast<int>(pieces.size())};
+    if (at(p) >= heirs_.size()) continue;
+    if (patch.on_first_side == 0)
+      heirs_[at(p)] = {first, end};
+    else
+      heirs_[at(p)] = i < patch.on_first_side ? PolygonRange{first, middle} : PolygonRange{middle, end};
   }
   for (const auto& piece : pieces) {
     const int p = static_cast<int>(polygons_.size());

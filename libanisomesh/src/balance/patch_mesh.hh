@@ -2,6 +2,7 @@
 #pragma once
 
 #include <OpenMesh/Core/Mesh/DefaultPolyMesh.hh>
+#include <array>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -26,6 +27,15 @@ class PatchMesh {
   struct Patch {
     std::vector<int> polygons;
     std::vector<int> ring;  ///< counter-clockwise; empty where it is no disc or touches itself
+    /// Where a vertex goes from a curve: the two beside it there, that come to be joined.
+    std::array<int, 2> bridge{-1, -1};
+    size_t on_first_side = 0;  ///< so many of the polygons, if they lie on two sides of a curve
+  };
+  /// Polygons around a vertex inside a curve, and the rings that are left without it; or those on both sides
+  /// of a side of a curve, and their rings with a vertex that is to come, -1.
+  struct CurveStar {
+    std::vector<Patch> sides;  ///< two of a feature, one of the border; none where nothing may be changed
+    Patch whole;               ///< polygons of both, one side after the other
   };
 
   const std::vector<Vertex>& vertices() const { return vertices_; }
@@ -38,6 +48,8 @@ class PatchMesh {
   std::vector<int> around(int polygon) const;
   /// Polygons around an inner vertex; without a ring where it is on a curve.
   Patch star(int vertex) const;
+  /// Without sides for corners, ends, and where curves meet or change their kind.
+  CurveStar curve_star(int vertex) const;
   /// Polygons that touch along sides.
   Patch join(const std::vector<int>& polygons) const;
   /// Whether v and w are joined by an edge of a polygon that is not in the patch.
@@ -51,8 +63,13 @@ class PatchMesh {
   bool may_replace(const Patch& patch, const std::vector<std::vector<int>>& pieces) const;
 
   int add_vertex(const Vec3d& point, const SurfacePoint& source);
+  /// Between two that are joined by a side of a curve.
+  int add_vertex_on_curve(const Vec3d& point, const SurfacePoint& source, const std::array<int, 2>& ends);
+  /// The polygons on both sides of a side, of the border the only one.
+  CurveStar curve_side(int v, int w) const;
   void move(int v, const Vec3d& to) { vertices_[static_cast<size_t>(v)].point = to; }
-  void replace(const Patch& patch, const std::vector<std::vector<int>>& pieces);
+  /// \param on_first_side so many of the pieces, if the patch lies on two sides of a curve
+  void replace(const Patch& patch, const std::vector<std::vector<int>>& pieces, size_t on_first_side = 0);
 
   /// The result with all its properties; vertices without a polygon are left out.
   OpenMesh::PolyMesh mesh() const;
@@ -64,7 +81,11 @@ class PatchMesh {
     const auto a = static_cast<std::uint64_t>(std::min(v, w)), b = static_cast<std::uint64_t>(std::max(v, w));
     return a << 32 | b;
   }
-  bool passes_a_vertex(int v, int w) const;
+  /// \param but vertices that do not count
+  bool passes_a_vertex(int v, int w, const std::vector<int>& but) const;
+  std::vector<int> beside_on_curve(int v) const;
+  Patch beside_curve(int v, int from, int to) const;
+  std::vector<int> inner_vertices(const Patch& patch) const;
   /// Edges at v that belong to no polygon of the patch.
   int edges_outside(const Patch& patch, int v) const;
   Patch with_ring(std::vector<int> polygons) const;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -149,6 +150,7 @@ PatchMoves::PatchMoves(const SurfaceRef& surface, const FitInput& input, const F
   for (int p = 0; p < mesh.n_polygons(); ++p)
     for (int t = triangles.first[at(p)]; t < triangles.first[at(p) + 1]; ++t) polygon_of[at(t)] = p;
   sort_samples(polygon_of);
+  sort_curves();
   costs_.triangle = options.triangle_cost * mean_error_;
   costs_.quads = options.max_degree == 4;
   costs_.follow = input.follow;
@@ -222,7 +224,9 @@ Vec6d PatchMoves::tensor_of(const std::vector<int>& polygons) const {
   return sum;
 }
 
-PatchMoves::Situation PatchMoves::look_at(const PatchMesh& mesh, const PatchMesh::Patch& patch) const {
+// \param place of a vertex that is to come
+PatchMoves::Situation PatchMoves::look_at(const PatchMesh& mesh, const PatchMesh::Patch& patch,
+                                          const Vec3d& place) const {
   Situation s;
   const size_t n = patch.ring.size();
   if (n < 3 || n > most_corners) return s;
@@ -234,7 +238,7 @@ PatchMoves::Situation PatchMoves::look_at(const PatchMesh& mesh, const PatchMesh
     s.samples.insert(s.samples.end(), placed_.begin() + first, placed_.begin() + end);
     s.numbers.insert(s.numbers.end(), sample_.begin() + first, sample_.begin() + end);
   }
-  for (const int v : patch.ring) s.ring.push_back(mesh.point(v));
+  for (const int v : patch.ring) s.ring.push_back(v < 0 ? place : mesh.point(v));
   s.normal = normal_of(patch.polygons, s.ring);
   if (!(s.normal.sqrnorm() > 0)) return s;
   s.tensor = tensor_of(patch.polygons);
@@ -243,10 +247,10 @@ PatchMoves::Situation PatchMoves::look_at(const PatchMesh& mesh, const PatchMesh
   return s;
 }
 
-PatchMove PatchMoves::partition(const PatchMesh& mesh, const PatchMesh::Patch& patch,
-                                bool keeps_vertices) const {
+PatchMove PatchMoves::best_partition(const PatchMesh& mesh, const PatchMesh::Patch& patch,
+                                     bool keeps_vertices, const Vec3d& place) const {
   PatchMove move;
-  const Situation s = look_at(mesh, patch);
+  const Situation s = look_at(mesh, patch, place);
   if (!s.possible) return move;
   PatchCosts costs = costs_;
   if (keeps_vertices) costs.limit = std::max(costs.limit, s.worst);
@@ -261,8 +265,24 @@ PatchMove PatchMoves::partition(const PatchMesh& mesh, const PatchMesh::Patch& p
     for (int& i : piece) i = patch.ring[at(i)];
     move.pieces.push_back(std::move(piece));
   }
-  if (!mesh.may_replace(patch, move.pieces) || folds(mesh, move)) move.pieces.clear();
   return move;
+}
+
+bool PatchMoves::may_be_made(const PatchMesh& mesh, const PatchMove& move) {
+  return !move.pieces.empty() && mesh.may_replace(move.patch, move.pieces) && !folds(mesh, move);
+}
+
+PatchMove PatchMoves::partition(const PatchMesh& mesh, const PatchMesh::Patch& patch,
+                                bool keeps_vertices) const {
+  PatchMove move = best_partition(mesh, patch, keeps_vertices);
+  if (!may_be_made(mesh, move)) move.pieces.clear();
+  return move;
+}
+
+SurfacePoint PatchMoves::source_at(OpenMesh::FaceHandle face, const Vec3d& place) const {
+  const auto c = surface_.corners(face);
+  return {face, closest_barycentric(place, surface_.point(c.vertex[0]), surface_.point(c.vertex[1]),
+                                    surface_.point(c.vertex[2]))};
 }
 
 PatchMove PatchMoves::addition(const PatchMesh& mesh, const PatchMesh::Patch& patch) const {
@@ -290,15 +310,12 @@ PatchMove PatchMoves::addition(const PatchMesh& mesh, const PatchMesh::Patch& pa
   move.gain = s.error + s.costs + inner_chords(mesh, patch, view) - found.cost;
   move.adds = true;
   move.place = middle;
-  const OpenMesh::FaceHandle face(sample.face);
-  const auto c = surface_.corners(face);
-  move.source = {face, closest_barycentric(sample.place, surface_.point(c.vertex[0]),
-                                           surface_.point(c.vertex[1]), surface_.point(c.vertex[2]))};
+  move.source = source_at(OpenMesh::FaceHandle(sample.face), sample.place);
   for (auto& piece : found.pieces) {
     for (int& i : piece) i = at(i) < patch.ring.size() ? patch.ring[at(i)] : -1;
     move.pieces.push_back(std::move(piece));
   }
-  if (!mesh.may_replace(patch, move.pieces) || folds(mesh, move)) move.pieces.clear();
+  if (!may_be_made(mesh, move)) move.pieces.clear();
   return move;
 }
 
@@ -386,6 +403,8 @@ std::vector<PatchMove> PatchMoves::removals(const PatchMesh& mesh, bool of_all) 
     const auto& star = stars[at(guesses[i].second)];
     if (!star.ring.empty()) moves[i] = partition(mesh, star, false);
   });
+  std::vector<PatchMove> on_curves = curve_removals(mesh);
+  std::move(on_curves.begin(), on_curves.end(), std::back_inserter(moves));
   sort_by_gain(moves);
   return moves;
 }
@@ -394,7 +413,7 @@ std::vector<PatchMove> PatchMoves::additions(const PatchMesh& mesh, bool lacking
   const double worth = lacking ? worth_adding_where_lacking : worth_adding;
   std::vector<char> wanted;
   for (const double error : error_) wanted.push_back(error > worth * mean_error_);
-  return additions_to(mesh, wanted, 0);
+  return additions_to(mesh, wanted, lacking ? -infinite : 0);
 }
 
 std::vector<PatchMove> PatchMoves::additions_beyond(const PatchMesh& mesh, double distance) const {
@@ -421,6 +440,8 @@ std::vector<PatchMove> PatchMoves::additions_to(const PatchMesh& mesh, const std
     PatchMove move = addition(mesh, mesh.join(groups[i]));
     if (move.gain > least_gain) moves[i] = std::move(move);
   });
+  for (PatchMove& move : curve_additions(mesh, wanted))
+    if (move.gain > least_gain) moves.push_back(std::move(move));
   sort_by_gain(moves);
   return moves;
 }

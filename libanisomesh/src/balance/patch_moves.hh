@@ -1,6 +1,7 @@
 // The moves that balance a result: each is judged by the error of the samples it concerns, before and after.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "anisomesh/balance.hh"
@@ -13,9 +14,11 @@ namespace anisomesh::detail {
 struct PatchMove {
   PatchMesh::Patch patch;
   std::vector<std::vector<int>> pieces;  ///< vertices; -1 is the added one
-  double gain = 0;                       ///< error before less error after, and triangles saved
+  size_t on_first_side = 0;  ///< so many of the pieces, if the patch lies on both sides of a curve
+  double gain = 0;           ///< error before less error after, and triangles saved
   bool adds = false;
-  Vec3d place{0, 0, 0};  ///< of the added vertex
+  Vec3d place{0, 0, 0};                ///< of the added vertex
+  std::array<int, 2> between{-1, -1};  ///< ... if it lies on a curve: the two beside it there
   SurfacePoint source;
 };
 
@@ -45,12 +48,25 @@ class PatchMoves {
   struct Sample;
   Sample sample_of(int pair) const;
   void sort_samples(const std::vector<int>& polygon_of);
-  Situation look_at(const PatchMesh& mesh, const PatchMesh::Patch& patch) const;
+  Situation look_at(const PatchMesh& mesh, const PatchMesh::Patch& patch, const Vec3d& place = {}) const;
   Vec3d normal_of(const std::vector<int>& polygons, const std::vector<Vec3d>& ring) const;
   Vec6d tensor_of(const std::vector<int>& polygons) const;
+  SurfacePoint source_at(OpenMesh::FaceHandle face, const Vec3d& place) const;
+  static bool may_be_made(const PatchMesh& mesh, const PatchMove& move);
   double guess(const PatchMesh& mesh, const PatchMesh::Patch& star, int vertex) const;
+  PatchMove curve_removal(const PatchMesh& mesh, int vertex) const;
+  PatchMove curve_addition(const PatchMesh& mesh, int side) const;
+  bool part_sides(const PatchMesh& mesh, const PatchMesh::CurveStar& star, PatchMove& move) const;
+  double curve_cost(int vertex, const std::array<int, 2>& bridge) const;
+  void sort_curves();
+  PatchMove best_partition(const PatchMesh& mesh, const PatchMesh::Patch& patch, bool keeps_vertices,
+                           const Vec3d& place = {}) const;
   PatchMove partition(const PatchMesh& mesh, const PatchMesh::Patch& patch, bool keeps_vertices) const;
   bool is_across(const PatchMesh& mesh, const PatchMesh::Patch& patch) const;
+  /// Vertices that go from features and borders, in no order.
+  std::vector<PatchMove> curve_removals(const PatchMesh& mesh) const;
+  /// \param wanted polygons \return vertices that come to features and borders beside them, in no order
+  std::vector<PatchMove> curve_additions(const PatchMesh& mesh, const std::vector<char>& wanted) const;
   std::vector<PatchMove> partitions(const PatchMesh& mesh, const std::vector<std::vector<int>>& groups) const;
   std::vector<PatchMove> additions_to(const PatchMesh& mesh, const std::vector<char>& wanted,
                                       double least_gain) const;
@@ -69,6 +85,9 @@ class PatchMoves {
   std::vector<PatchSample> placed_;
   std::vector<Vec3d> normal_;  // sums by weight
   std::vector<Vec6d> tensor_;  // empty where none is known
+  // What stands beside each side on a curve, and how much a squared distance from it counts.
+  std::vector<std::vector<const FitCurves::Sample*>> on_side_;
+  double curve_weight_ = 0, farthest_from_curve_ = 0;
 };
 
 }  // namespace anisomesh::detail

@@ -32,6 +32,7 @@ FitCurves::FitCurves(const SurfaceRef& surface, const FitMesh& mesh, const FitMa
     if (!is_feature_or_border(input, e)) continue;
     const Vec3d &a = surface.point(e.v0()), &b = surface.point(e.v1());
     Sample sample;
+    sample.edge = e.idx();
     const double length = (b - a).norm();
     std::vector<int> candidates;
     for (const int k : {0, 1}) {

@@ -10,12 +10,23 @@ namespace anisomesh::detail {
 
 class FitCurves {
  public:
+  /// A place on a feature or border of the input.
+  struct Sample {
+    Vec3d place{0, 0, 0};
+    int edge = -1;      ///< of the input
+    double length = 0;  ///< of the piece of the curve that it stands for; 0: it is only watched
+    int side = -1;      ///< of the result, nearest to it; -1: none is near
+    double parameter = 0, distance = 0;  ///< along the side and from it
+    bool follows = false;                ///< the one before it, along the same edge
+    double farthest = 0;                 ///< distance from there to here
+  };
   /// \param matching tells which polygons lie beside an edge of the input
   FitCurves(const SurfaceRef& surface, const FitMesh& mesh, const FitMatching& matching,
             const std::vector<Vec3d>& points);
 
   /// Finds the sides nearest to the input's curves, where the vertices are now.
   void match(const std::vector<Vec3d>& points);
+  const std::vector<Sample>& samples() const { return samples_; }
   /// Squared distances of the input's curves to the matched sides. \param width of the strip along a curve
   /// whose area a piece of it weighs as much as
   void add_terms(const std::vector<Vec3d>& points, double width, double total_area, FitSystem& system) const;
@@ -23,14 +34,6 @@ class FitCurves {
   void mark_strays(const std::vector<Vec3d>& points, std::vector<char>& marked) const;
 
  private:
-  struct Sample {
-    Vec3d place{0, 0, 0};
-    double length = 0;
-    int side = -1;  // of the result; -1: none is near
-    double parameter = 0, distance = 0;
-    bool follows = false;  // the one before it, along the same edge
-    double farthest = 0;   // distance from there to here
-  };
   void look(const Vec3d& place, int side, const std::vector<Vec3d>& points, Sample& best) const;
   double farthest_between(Sample from, Sample to, const std::vector<Vec3d>& points) const;
   Sample nearest(const Sample& sample, const std::vector<Vec3d>& points) const;

@@ -29,6 +29,9 @@ class FitState {
   const FitTriangles& triangles() const { return triangles_; }
   const FitMatching& matching() const { return matching_; }
   const std::vector<FitPair>& pairs() const { return pairs_.pair; }
+  const FitCurves& curves() const { return curves_; }
+  /// Groups of vertices that stay together.
+  const std::vector<std::vector<int>>& twins() const { return twins_; }
 
   /// How many times more alignment counts than on a result that is far coarser than its input. With more
   /// vertices than a fifth of the input's, what a result gains in distance is more and more how the input was

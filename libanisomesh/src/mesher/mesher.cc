@@ -141,15 +141,12 @@ void take_more_care(const std::vector<std::vector<int>>& polygons, const Network
                       std::to_string(middle[2]) + "); smooth the input there or try a smaller epsilon");
 }
 
-void count_polygons(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
-                    MeshReport& report) {
+void count_polygons(const std::vector<std::vector<int>>& polygons, MeshReport& report) {
   std::vector<int> nodes;
   for (const auto& polygon : polygons) nodes.insert(nodes.end(), polygon.begin(), polygon.end());
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   report.vertices = nodes.size();
-  report.on_features = static_cast<size_t>(std::count_if(
-      nodes.begin(), nodes.end(), [&](int n) { return network.touches(n, EdgeKind::feature); }));
   report.faces = polygons.size();
   report.triangles = report.quads = 0;
   for (const auto& polygon : polygons) {
@@ -270,7 +267,7 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
       unsound = soundness.folded(polygons, network, *reference);
     }
     if (unsound.empty()) break;
-    count_polygons(polygons, network, local);
+    count_polygons(polygons, local);
     if (!is_wanted(local)) {
       local.seconds = total.lap();
       if (report) *report = local;
@@ -285,7 +282,7 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
   local.polygon_seconds += stopwatch.lap();
   report_progress(progress, 1);
 
-  count_polygons(polygons, network, local);
+  count_polygons(polygons, local);
   local.seconds = total.lap();
   if (report) *report = local;
   return done;

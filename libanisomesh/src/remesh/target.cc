@@ -9,6 +9,7 @@
 
 #include "anisomesh/properties.hh"
 #include "anisomesh/remesh.hh"
+#include "balance/faces_left.hh"
 #include "lines/crossing_model.hh"
 #include "mesher/grids.hh"
 #include "mesher/polygon_attempt.hh"
@@ -31,10 +32,6 @@ constexpr double kForFit = 0.765, kFacesForFit = 0.84;
 /// Off by so much, the balance that follows a fit makes up for it: better by adding vertices, which go to
 /// where the error is largest, than by taking them out, which costs quads.
 constexpr double kEnoughBelow = 0.10, kEnoughAbove = 0.07;
-/// It makes quads of triangles too, until there are hardly more faces than this for each vertex; on a closed
-/// surface of quads alone there is one for each, and one more for each below zero of the Euler
-/// characteristic.
-constexpr double kFacesLeft = 1.1;
 
 /// Where lines for so few would not tell the shape, the balance takes vertices out, of up to so many times as
 /// many.
@@ -74,14 +71,9 @@ size_t least_vertices(const OpenMesh::TriConnectivity& mesh) {
   return count;
 }
 
-/// Features get no vertices there, though: rather too many, by so much of what is aimed at.
+/// With found features a little more is made than is wanted: which of their vertices buy least the balance
+/// knows better.
 constexpr double kAimAtFeatures = 1.06, kEnoughAtFeatures = 0.05;
-/// ... but where two triangles and so many vertices around them all lie on features; a fifth of these go.
-constexpr double kAround = 8, kWalled = 0.8;
-
-double share_of(size_t some, size_t all) {
-  return all == 0 ? 0 : static_cast<double>(some) / static_cast<double>(all);
-}
 
 /// Of all that is wanted: what corners of features take at most, where the search begins.
 constexpr double kMostCorners = 0.5;
@@ -151,15 +143,10 @@ OpenMesh::PolyMesh trace_and_mesh(const SurfaceRef& surface, const TraceOptions&
   const double euler = static_cast<double>(connectivity.n_vertices() + connectivity.n_faces()) -
                        static_cast<double>(connectivity.n_edges());
   const FoundFeatures features(surface, polygons);
-  // The balance makes quads of triangles, but for those with features all around: no vertex goes from these.
   const auto count_of = [&](const MeshReport& made) {
     if (target.target_faces == 0) return made.vertices;
-    const double quads = std::max(0.0, static_cast<double>(made.vertices) - euler);
-    const double walled =
-        features.are_found() ? kWalled * std::pow(share_of(made.on_features, made.vertices), kAround) : 0;
-    const double left =
-        std::max(kFacesLeft * quads, quads + walled * (static_cast<double>(made.faces) - quads));
-    return balanced && mesh.max_degree == 4 ? std::min(made.faces, static_cast<size_t>(left)) : made.faces;
+    return balanced && mesh.max_degree == 4 ? detail::faces_left(made.faces, made.vertices, euler)
+                                            : made.faces;
   };
   // With `any` count, or only one that is near the target, worth being made sound.
   const auto run = [&](double from, double to, bool any) {
