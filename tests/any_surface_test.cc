@@ -435,7 +435,8 @@ TEST_CASE("features stay near however they are straightened, and cells beside th
   }
 }
 
-// Lines that cross a straight feature leave vertices there that it does not need: 227 and 445 faces for 159 and 214 before.
+// Lines that cross a straight feature leave vertices there that it does not need: 227 and 445 faces before,
+// for 159 and 214.
 TEST_CASE("vertices go from straight features, which stay covered", "[any_surface]") {
   for (const char* name : {"dragknob.off", "double-torus-3-holes.off"}) {
     const auto path = demo_mesh(name);

@@ -44,7 +44,7 @@ constexpr double sure = 1.2;  // an exchange must gain this many times what it c
 /// go only as long as one costs no more than so many mean errors of a polygon: they tell all of the shape.
 constexpr double features_alone = 0.9, dearest_of_few = 8;
 /// ... or so many, where that meets a count that is missed by so little.
-constexpr double dearest_for_count = 32, nearly_met = 0.3;
+constexpr double dearest_for_count = 128, nearly_met = 0.3;
 
 /// Takes removals and additions in turn, as long as that pays, or the number of vertices is not what it is to
 /// be. \param dearest no vertex that is too many goes for more error than this
