@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "balance/patch_moves.hh"
+#include "numerics/segment.hh"
 #include "prepare/feature_tolerance.hh"
 #include "surface/recorded.hh"
 
@@ -22,12 +23,6 @@ constexpr double farthest_of_all = 3;  // rms distances that a curve may lie bes
 constexpr double irregular =
     3;  // triangles that a vertex costs more on each side of a curve: no line ends there
 constexpr double straight = 1e-6;  // lengths of a side: its curve is nowhere farther from it
-
-double distance_to_segment(const Vec3d& place, const Vec3d& a, const Vec3d& b) {
-  const double squared = (b - a).sqrnorm();
-  const double t = squared > 0 ? std::clamp(((place - a) | (b - a)) / squared, 0.0, 1.0) : 0;
-  return (place - a - t * (b - a)).norm();
-}
 
 }  // namespace
 
@@ -53,8 +48,7 @@ double PatchMoves::curve_cost(int vertex, const std::array<int, 2>& bridge) cons
   for (int i = mesh.first_side[at(vertex)]; i < mesh.first_side[at(vertex) + 1]; ++i) {
     const int side = mesh.sides_at[at(i)];
     for (const FitCurves::Sample* sample : on_side_[at(side)]) {
-      const double distance =
-          distance_to_segment(sample->place, points[at(bridge[0])], points[at(bridge[1])]);
+      const double distance = off_segment(sample->place, points[at(bridge[0])], points[at(bridge[1])]).norm();
       if (distance > std::max(farthest_from_curve_, sample->distance)) return infinite;
       sum += sample->length * (distance * distance - sample->distance * sample->distance);
     }
@@ -96,8 +90,8 @@ PatchMove PatchMoves::curve_addition(const PatchMesh& mesh, int side) const {
   move.place = farthest->place;
   move.between = {ends.from, ends.to};
   for (const auto* sample : on_side_[at(side)]) {
-    const double distance = std::min(distance_to_segment(sample->place, a, move.place),
-                                     distance_to_segment(sample->place, move.place, b));
+    const double distance = std::min(off_segment(sample->place, a, move.place).norm(),
+                                     off_segment(sample->place, move.place, b).norm());
     move.gain += curve_weight_ * sample->length * (sample->distance * sample->distance - distance * distance);
   }
   const auto& input = surface_.connectivity();

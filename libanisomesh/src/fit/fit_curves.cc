@@ -6,6 +6,7 @@
 
 #include "anisomesh/features.hh"
 #include "fit/fit_samples.hh"
+#include "numerics/segment.hh"
 #include "prepare/feature_tolerance.hh"
 
 namespace anisomesh::detail {
@@ -68,7 +69,7 @@ FitCurves::FitCurves(const SurfaceRef& surface, const FitMesh& mesh, const FitMa
 void FitCurves::look(const Vec3d& place, int side, const std::vector<Vec3d>& points, Sample& best) const {
   const Vec3d &a = points[at(mesh_.sides[at(side)].from)], &b = points[at(mesh_.sides[at(side)].to)];
   const double squared = (b - a).sqrnorm();
-  const double t = squared > 0 ? std::clamp(((place - a) | (b - a)) / squared, 0.0, 1.0) : 0;
+  const double t = nearest_parameter(place, a, b);
   const double distance = (place - a - t * (b - a)).norm();
   // Beside a vertex that two sides share the first keeps it.
   if (!is_nearer(distance * distance, best.distance * best.distance, std::sqrt(squared))) return;

@@ -1,4 +1,5 @@
 #include "lines/surface_index.hh"
+#include "numerics/segment.hh"
 
 #include <algorithm>
 #include <cmath>
@@ -6,13 +7,6 @@
 namespace anisomesh::detail {
 
 namespace {
-
-// The point of a segment nearest to p, as a parameter in [0, 1].
-double nearest_parameter(const Vec2d& p, const Vec2d& a, const Vec2d& b) {
-  const Vec2d ab = b - a;
-  const double length2 = ab.sqrnorm();
-  return length2 > 0 ? std::clamp(((p - a) | ab) / length2, 0.0, 1.0) : 0.0;
-}
 
 Vec2d unit(const Vec2d& v) {
   const double length = v.norm();

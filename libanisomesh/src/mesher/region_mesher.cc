@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "numerics/bvh.hh"
+#include "numerics/segment.hh"
 #include "numerics/shorter_diagonal.hh"
 #include "numerics/small_triangulation.hh"
 #include "surface/rounding.hh"
@@ -147,12 +148,8 @@ std::vector<std::array<int, 3>> RegionMesher::as_drawn(const std::vector<Piece>&
 double RegionMesher::border_distance(const Vec3d& p) const {
   double nearest = std::numeric_limits<double>::infinity();
   const size_t n = corners_.loop;
-  for (size_t i = 0; i < n; ++i) {
-    const Vec3d &a = corners_.position[i], along = corners_.position[(i + 1) % n] - a;
-    const double squared = along | along;
-    const double t = squared > 0 ? std::clamp(((p - a) | along) / squared, 0.0, 1.0) : 0.0;
-    nearest = std::min(nearest, (p - a - t * along).norm());
-  }
+  for (size_t i = 0; i < n; ++i)
+    nearest = std::min(nearest, off_segment(p, corners_.position[i], corners_.position[(i + 1) % n]).norm());
   return nearest;
 }
 

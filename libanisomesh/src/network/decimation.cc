@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "numerics/segment.hh"
 #include "surface/rounding.hh"
 
 namespace anisomesh::detail {
@@ -13,14 +14,6 @@ namespace anisomesh::detail {
 namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
-
-// From the nearest point of the segment to p.
-Vec3d off_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
-  const Vec3d along = b - a;
-  const double squared = along | along;
-  const double t = squared > 0 ? std::clamp(((p - a) | along) / squared, 0.0, 1.0) : 0.0;
-  return p - a - t * along;
-}
 
 class Decimator {
  public:

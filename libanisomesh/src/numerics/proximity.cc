@@ -1,4 +1,5 @@
 #include "numerics/proximity.hh"
+#include "numerics/segment.hh"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_face_base_2.h>
@@ -41,13 +42,6 @@ using FaceHandle = Triangulation::Face_handle;
 using Point = Triangulation::Point;
 
 Vec2d as_vector(const Point& p) { return {p.x(), p.y()}; }
-
-// The point of a segment nearest to p, as a parameter in [0, 1].
-double nearest_parameter(const Vec2d& p, const Vec2d& a, const Vec2d& b) {
-  const Vec2d ab = b - a;
-  const double length2 = ab.sqrnorm();
-  return length2 > 0 ? std::clamp(((p - a) | ab) / length2, 0.0, 1.0) : 0.0;
-}
 
 }  // namespace
 

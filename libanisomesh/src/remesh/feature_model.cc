@@ -1,4 +1,5 @@
 #include "remesh/feature_model.hh"
+#include "numerics/segment.hh"
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +10,6 @@
 namespace anisomesh::detail {
 
 namespace {
-
-double distance_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
-  const Vec3d along = b - a;
-  const double squared = along.sqrnorm();
-  const double t = squared > 0 ? std::clamp(((p - a) | along) / squared, 0.0, 1.0) : 0.0;
-  return (p - a - t * along).norm();
-}
 
 /// Of each place but the ends: the distance at which the chain is split there, no more than that of the split
 /// that makes room for it.
@@ -33,7 +27,7 @@ std::vector<double> split_distances(const std::vector<Vec3d>& places) {
     size_t split = (r.begin + r.end) / 2;
     double farthest = 0;
     for (size_t i = r.begin + 1; i < r.end; ++i) {
-      const double d = distance_to_segment(places[i], places[r.begin], places[r.end]);
+      const double d = off_segment(places[i], places[r.begin], places[r.end]).norm();
       if (d > farthest) farthest = d, split = i;
     }
     result.push_back(std::min(farthest, r.most));
