@@ -1,5 +1,7 @@
 #include "fit/fit_curves.hh"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -104,10 +106,14 @@ double FitCurves::farthest_between(Sample from, Sample to, const std::vector<Vec
 }
 
 void FitCurves::match(const std::vector<Vec3d>& points) {
-  for (size_t i = 0; i < samples_.size(); ++i) {
-    Sample& sample = samples_[i] = nearest(samples_[i], points);
-    sample.farthest = sample.follows ? farthest_between(samples_[i - 1], sample, points) : sample.distance;
-  }
+  tbb::parallel_for(size_t{0}, samples_.size(),
+                    [&](size_t i) { samples_[i] = nearest(samples_[i], points); });
+  std::vector<double> farthest(samples_.size());
+  tbb::parallel_for(size_t{0}, samples_.size(), [&](size_t i) {
+    const Sample& sample = samples_[i];
+    farthest[i] = sample.follows ? farthest_between(samples_[i - 1], sample, points) : sample.distance;
+  });
+  for (size_t i = 0; i < samples_.size(); ++i) samples_[i].farthest = farthest[i];
 }
 
 void FitCurves::add_terms(const std::vector<Vec3d>& points, double width, double total_area,
@@ -124,18 +130,6 @@ void FitCurves::add_terms(const std::vector<Vec3d>& points, double width, double
     const TangentFrame across(along / length);
     system.add_row(v, factor, across.u, away | across.u, weight);
     system.add_row(v, factor, across.v, away | across.v, weight);
-  }
-}
-
-void FitCurves::mark_strays(const std::vector<Vec3d>& points, std::vector<char>& marked) const {
-  Sample before;
-  for (const Sample& sample : samples_) {
-    const Sample now = nearest(sample, points);
-    const Sample from = sample.follows ? before : now;
-    before = now;
-    if (farthest_between(from, now, points) <= std::max(tolerance_, sample.farthest)) continue;
-    for (const int s : {sample.side, now.side, from.side})
-      for (const int v : {mesh_.sides[at(s)].from, mesh_.sides[at(s)].to}) marked[at(v)] = 1;
   }
 }
 

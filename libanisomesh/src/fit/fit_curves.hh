@@ -30,10 +30,9 @@ class FitCurves {
   /// Squared distances of the input's curves to the matched sides. \param width of the strip along a curve
   /// whose area a piece of it weighs as much as
   void add_terms(const std::vector<Vec3d>& points, double width, double total_area, FitSystem& system) const;
-  /// Marks the ends of sides that would leave their curve farther than they may, or farther than before.
-  void mark_strays(const std::vector<Vec3d>& points, std::vector<char>& marked) const;
 
  private:
+  friend class FitStrays;
   void look(const Vec3d& place, int side, const std::vector<Vec3d>& points, Sample& best) const;
   double farthest_between(Sample from, Sample to, const std::vector<Vec3d>& points) const;
   Sample nearest(const Sample& sample, const std::vector<Vec3d>& points) const;

@@ -8,6 +8,7 @@
 #include "anisomesh/mesher.hh"
 #include "anisomesh/properties.hh"
 #include "fit/fit_guard.hh"
+#include "fit/fit_strays.hh"
 #include "fit/fit_terms.hh"
 
 namespace anisomesh::detail {
@@ -110,8 +111,9 @@ size_t FitState::improve() {
   for (Vec3d& s : step) s *= longer;
   keep_together(step);
   const FitGuard guard(mesh_, triangles_, forms_);
+  FitStrays curve_strays(curves_);
   const auto strays = [&](const std::vector<Vec3d>& points, std::vector<char>& marked) {
-    curves_.mark_strays(points, marked);
+    curve_strays.mark(points, marked);
     for (const auto& group : twins_) {
       const bool any = std::any_of(group.begin(), group.end(), [&](int v) { return marked[at(v)] != 0; });
       for (const int v : group) marked[at(v)] = any;
