@@ -185,6 +185,36 @@ TEST_CASE("polygons that cap a deep groove are parted along its bottom", "[balan
   check_sound(balanced);
 }
 
+TEST_CASE("two triangles with one quad or two between them become quads", "[balance]") {
+  const int between = GENERATE(1, 2);
+  INFO(between);
+  ParametricPatch patch;
+  patch.position = [](double u, double v) { return Vec3d(u, v, 0.3 * u * (1 - u) + 0.2 * v * (1 - v)); };
+  ShapeOptions options;
+  options.vertices = 3600;
+  OpenMesh::TriMesh mesh = mesh_patch(patch, options);
+  const int n = 6, row = 2, first = 2;
+  std::vector<double> xs;
+  for (int i = 0; i <= n; ++i) xs.push_back(static_cast<double>(i) / n);
+  std::vector<int> left_out;
+  for (int i = 0; i <= between; ++i) left_out.push_back(row * n + first + i);
+  PolyMesh net = rectangles(mesh, xs, n, left_out);
+  const auto vertex = [&](int i, int j) { return OpenMesh::VertexHandle((row + j) * (n + 1) + first + i); };
+  net.add_face(std::vector<OpenMesh::VertexHandle>{vertex(0, 0), vertex(1, 0), vertex(0, 1)});
+  for (int i = 0; i < between; ++i)
+    net.add_face(std::vector<OpenMesh::VertexHandle>{vertex(i + 1, 0), vertex(i + 2, 0), vertex(i + 1, 1),
+                                                     vertex(i, 1)});
+  net.add_face(std::vector<OpenMesh::VertexHandle>{vertex(between + 1, 0), vertex(between + 1, 1),
+                                                   vertex(between, 1)});
+  name_edges(net);
+  REQUIRE(net.n_faces() == n * n + 1);
+  balance_vertices(mesh, net);
+  CHECK(net.n_faces() == n * n);
+  const Comparison balanced = compare(mesh, net);
+  CHECK(balanced.quad_fraction == 1);
+  check_sound(balanced);
+}
+
 TEST_CASE("lines that are as dense where it is flat give vertices to a bump", "[balance]") {
   // Which lines there are, and how well they suit the bump, is chance: the mean over three turned copies.
   double sum = 0;

@@ -60,7 +60,7 @@ double PatchMoves::curve_cost(int vertex, const std::array<int, 2>& bridge) cons
 bool PatchMoves::part_sides(const PatchMesh& mesh, const PatchMesh::CurveStar& star, PatchMove& move) const {
   move.patch = star.whole;
   for (const PatchMesh::Patch& side : star.sides) {
-    const PatchMove part = best_partition(mesh, side, false, move.place);
+    const PatchMove part = best_partition(mesh, side, Aim::removal, move.place);
     if (part.pieces.empty()) return false;
     move.gain += part.gain;
     if (star.sides.size() == 2 && move.pieces.empty()) move.on_first_side = part.pieces.size();

@@ -3,14 +3,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <numeric>
-#include <set>
 #include <utility>
 
+#include "balance/patch_groups.hh"
 #include "fit/fit_guard.hh"
 #include "surface/rounding.hh"
 
@@ -27,7 +26,10 @@ constexpr double worth_adding = 2;      // mean errors: there a vertex may be ad
 constexpr double worth_adding_where_lacking = 1.2;
 constexpr double lying_across = 0.3;    // mean errors: a side that costs more for how it lies is looked at
 constexpr double worth_parting = 0.05;  // mean errors: a repartition gains that
-constexpr double hanging = 3;           // times the error of the input beside it, or the mean one
+/// How much more sides count that lie across, where two triangles become quads with what parts them: their
+/// price alone would lay sides of a regular grid askew for it, and take places far off, of so many rms, too.
+constexpr double sides_of_pairs = 3, farthest_for_pairs = 3;
+constexpr double hanging = 3;  // times the error of the input beside it, or the mean one
 
 // Of moves that gain the same but for rounding, as one quad parted alone or with what stays beside it, the
 // first comes first.
@@ -99,13 +101,6 @@ bool folds(const PatchMesh& mesh, const PatchMove& move) {
     lowest_before = std::min(lowest_before, other | normal_at(before, v, w));
   }
   return lowest < lowest_before;
-}
-
-// A polygon with each two of its neighbours.
-void add_threes(const PatchMesh& mesh, int p, std::vector<std::vector<int>>& groups) {
-  const std::vector<int> beside = mesh.around(p);
-  for (size_t i = 0; i < beside.size(); ++i)
-    for (size_t j = 0; j < i; ++j) groups.push_back({p, beside[j], beside[i]});
 }
 
 }  // namespace
@@ -247,13 +242,19 @@ PatchMoves::Situation PatchMoves::look_at(const PatchMesh& mesh, const PatchMesh
   return s;
 }
 
-PatchMove PatchMoves::best_partition(const PatchMesh& mesh, const PatchMesh::Patch& patch,
-                                     bool keeps_vertices, const Vec3d& place) const {
+PatchMove PatchMoves::best_partition(const PatchMesh& mesh, const PatchMesh::Patch& patch, Aim aim,
+                                     const Vec3d& place) const {
   PatchMove move;
   const Situation s = look_at(mesh, patch, place);
   if (!s.possible) return move;
   PatchCosts costs = costs_;
+  const bool keeps_vertices = aim != Aim::removal;
   if (keeps_vertices) costs.limit = std::max(costs.limit, s.worst);
+  if (aim == Aim::quads_of_pairs) {
+    const double rms = std::sqrt(mean_error_ * static_cast<double>(error_.size()));
+    costs.chord *= sides_of_pairs;
+    costs.limit = (1 + kRounding) * std::max(s.worst, farthest_for_pairs * rms);
+  }
   const PatchView view(s.normal, s.samples, s.tensor, costs);
   const double now = s.error + s.costs + inner_chords(mesh, patch, view);
   const double most = keeps_vertices ? now - worth_parting * mean_error_ : infinite;
@@ -272,9 +273,8 @@ bool PatchMoves::may_be_made(const PatchMesh& mesh, const PatchMove& move) {
   return !move.pieces.empty() && mesh.may_replace(move.patch, move.pieces) && !folds(mesh, move);
 }
 
-PatchMove PatchMoves::partition(const PatchMesh& mesh, const PatchMesh::Patch& patch,
-                                bool keeps_vertices) const {
-  PatchMove move = best_partition(mesh, patch, keeps_vertices);
+PatchMove PatchMoves::partition(const PatchMesh& mesh, const PatchMesh::Patch& patch, Aim aim) const {
+  PatchMove move = best_partition(mesh, patch, aim);
   if (!may_be_made(mesh, move)) move.pieces.clear();
   return move;
 }
@@ -331,43 +331,42 @@ bool PatchMoves::is_across(const PatchMesh& mesh, const PatchMesh::Patch& patch)
 }
 
 // Those that gain, in the order of the groups.
-std::vector<PatchMove> PatchMoves::partitions(const PatchMesh& mesh,
-                                              const std::vector<std::vector<int>>& groups) const {
-  std::vector<PatchMove> moves(groups.size());
-  tbb::parallel_for(size_t{0}, groups.size(),
-                    [&](size_t i) { moves[i] = partition(mesh, mesh.join(groups[i]), true); });
+std::vector<PatchMove> PatchMoves::partitions(const PatchMesh& mesh, const PatchGroups& groups) const {
+  std::vector<PatchMove> moves(groups.all().size());
+  tbb::parallel_for(size_t{0}, moves.size(), [&](size_t i) {
+    const Aim aim = i < groups.first_for_pairs() ? Aim::repartition : Aim::quads_of_pairs;
+    moves[i] = partition(mesh, mesh.join(groups.all()[i]), aim);
+  });
   return moves;
 }
 
 // Single polygons; neighbours that are far off, or triangles, or on both sides of an edge that lies
 // diagonally to the principal directions; these also with each polygon beside them, as often it takes another
-// to lay the edge better.
+// to lay the edge better. Triangles that quads part.
 std::vector<PatchMove> PatchMoves::repartitions(const PatchMesh& mesh) const {
-  std::vector<std::vector<int>> groups, pairs;
+  PatchGroups groups(mesh);
+  std::vector<std::vector<int>> pairs;
   for (size_t p = 0; p < error_.size(); ++p) {
     if (mesh.polygons()[p].size() > 3 && error_[p] > worth_a_look * mean_error_)
-      groups.push_back({static_cast<int>(p)});
+      groups.add({static_cast<int>(p)});
     for (const int q : mesh.around(static_cast<int>(p)))
       if (q > static_cast<int>(p)) pairs.push_back({static_cast<int>(p), q});
-    if (hangs_[p]) add_threes(mesh, static_cast<int>(p), groups);
+    if (hangs_[p]) groups.add_around(static_cast<int>(p));
   }
   std::vector<char> across(pairs.size(), 0);
   tbb::parallel_for(size_t{0}, pairs.size(),
                     [&](size_t i) { across[i] = is_across(mesh, mesh.join(pairs[i])); });
-  std::set<std::array<int, 3>> threes;  // each once, whichever of its sides lie across
   for (size_t i = 0; i < pairs.size(); ++i) {
     const int p = pairs[i][0], q = pairs[i][1];
     const bool triangles = mesh.polygons()[at(p)].size() + mesh.polygons()[at(q)].size() == 6;
     if (across[i] || triangles || error_[at(p)] + error_[at(q)] > 2 * worth_a_look * mean_error_)
-      groups.push_back(pairs[i]);
+      groups.add(pairs[i]);
     if (!across[i]) continue;
     for (const auto& [one, other] : {std::pair(p, q), std::pair(q, p)})
-      for (const int beside : mesh.around(one)) {
-        std::array<int, 3> three{p, q, beside};
-        std::sort(three.begin(), three.end());
-        if (beside != other && threes.insert(three).second) groups.push_back({p, q, beside});
-      }
+      for (const int beside : mesh.around(one))
+        if (beside != other) groups.add_three(p, q, beside);
   }
+  if (costs_.quads) groups.add_between_triangles(pairs);
   auto moves = partitions(mesh, groups);
   sort_by_gain(moves);
   return moves;
@@ -401,7 +400,7 @@ std::vector<PatchMove> PatchMoves::removals(const PatchMesh& mesh, bool of_all) 
   std::vector<PatchMove> moves(of_all ? n : static_cast<size_t>(tried_removals * static_cast<double>(n)));
   tbb::parallel_for(size_t{0}, moves.size(), [&](size_t i) {
     const auto& star = stars[at(guesses[i].second)];
-    if (!star.ring.empty()) moves[i] = partition(mesh, star, false);
+    if (!star.ring.empty()) moves[i] = partition(mesh, star, Aim::removal);
   });
   std::vector<PatchMove> on_curves = curve_removals(mesh);
   std::move(on_curves.begin(), on_curves.end(), std::back_inserter(moves));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "anisomesh/balance.hh"
+#include "balance/patch_groups.hh"
 #include "balance/patch_mesh.hh"
 #include "balance/patch_partition.hh"
 #include "fit/fit_state.hh"
@@ -59,15 +60,16 @@ class PatchMoves {
   bool part_sides(const PatchMesh& mesh, const PatchMesh::CurveStar& star, PatchMove& move) const;
   double curve_cost(int vertex, const std::array<int, 2>& bridge) const;
   void sort_curves();
-  PatchMove best_partition(const PatchMesh& mesh, const PatchMesh::Patch& patch, bool keeps_vertices,
+  enum class Aim { removal, repartition, quads_of_pairs };  // the last: PatchGroups::first_for_pairs()
+  PatchMove best_partition(const PatchMesh& mesh, const PatchMesh::Patch& patch, Aim aim,
                            const Vec3d& place = {}) const;
-  PatchMove partition(const PatchMesh& mesh, const PatchMesh::Patch& patch, bool keeps_vertices) const;
+  PatchMove partition(const PatchMesh& mesh, const PatchMesh::Patch& patch, Aim aim) const;
   bool is_across(const PatchMesh& mesh, const PatchMesh::Patch& patch) const;
   /// Vertices that go from features and borders, in no order.
   std::vector<PatchMove> curve_removals(const PatchMesh& mesh) const;
   /// \param wanted polygons \return vertices that come to features and borders beside them, in no order
   std::vector<PatchMove> curve_additions(const PatchMesh& mesh, const std::vector<char>& wanted) const;
-  std::vector<PatchMove> partitions(const PatchMesh& mesh, const std::vector<std::vector<int>>& groups) const;
+  std::vector<PatchMove> partitions(const PatchMesh& mesh, const PatchGroups& groups) const;
   std::vector<PatchMove> additions_to(const PatchMesh& mesh, const std::vector<char>& wanted,
                                       double least_gain) const;
   PatchMove addition(const PatchMesh& mesh, const PatchMesh::Patch& patch) const;
