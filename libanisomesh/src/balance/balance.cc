@@ -157,14 +157,15 @@ class Balance {
     for (const auto v : work_.vertices()) work_.set_point(v, state_->points()[static_cast<size_t>(v.idx())]);
   }
 
-  /// Moves that break a polygon are taken back, and others may take their place.
-  void move() {
+  /// Moves that break a polygon are taken back, and others may take their place. \param at_any_cost vertices
+  /// that are lacking come also where they gain nothing
+  void move(bool at_any_cost = false) {
     const detail::PatchMoves moves(surface_, input_, *state_, options_);
     const PatchMesh start(work_);
     const auto at_once = static_cast<long>(most_at_once * static_cast<double>(work_.n_vertices()));
     const long surplus = std::min(wanted_.surplus(work_, faces_left()), at_once);
     const auto removals = moves.removals(start, surplus == at_once),
-               additions = moves.additions(start, surplus < 0),
+               additions = moves.additions(start, surplus < 0, at_any_cost),
                far = detail::FarMoves(reference_, *state_, options_).repartitions(start),
                repartitions = moves.repartitions(start);
     const double dearest = is_dear_ ? dearest_ * moves.mean_error() : infinite;
@@ -212,7 +213,7 @@ class Balance {
     for (int round = 0; round < more_rounds && is_missed(); ++round) {
       report_progress(progress, 0);
       fit(passes_between);
-      move();
+      move(true);
     }
     if (!is_missed()) return;
     work_ = before;
@@ -306,7 +307,7 @@ BalanceReport balance_vertices(const SurfaceRef& surface, OpenMesh::PolyMesh& re
     balance.fit(round == 0 ? passes_before : passes_between);
     if (round == 0) fitted = balance.work(), rms_fitted = balance.rms();
     const size_t before = balance.work().n_vertices();
-    balance.move();
+    balance.move(round + 1 >= options.rounds);
     if (round + 1 >= options.rounds && balance.is_dear() && takes_few(before, balance.work().n_vertices()))
       break;
   }

@@ -408,11 +408,11 @@ std::vector<PatchMove> PatchMoves::removals(const PatchMesh& mesh, bool of_all) 
   return moves;
 }
 
-std::vector<PatchMove> PatchMoves::additions(const PatchMesh& mesh, bool lacking) const {
+std::vector<PatchMove> PatchMoves::additions(const PatchMesh& mesh, bool lacking, bool at_any_cost) const {
   const double worth = lacking ? worth_adding_where_lacking : worth_adding;
   std::vector<char> wanted;
   for (const double error : error_) wanted.push_back(error > worth * mean_error_);
-  return additions_to(mesh, wanted, lacking ? -infinite : 0);
+  return additions_to(mesh, wanted, lacking && at_any_cost ? -infinite : 0);
 }
 
 std::vector<PatchMove> PatchMoves::additions_beyond(const PatchMesh& mesh, double distance) const {

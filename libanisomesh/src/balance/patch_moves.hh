@@ -37,8 +37,9 @@ class PatchMoves {
   /// Vertices whose removal costs least, that first. \param of_all tries every one, not only those that seem
   /// cheapest
   std::vector<PatchMove> removals(const PatchMesh& mesh, bool of_all = false) const;
-  /// Vertices to add, best first. \param lacking are vertices: other polygons than the worst are tried too
-  std::vector<PatchMove> additions(const PatchMesh& mesh, bool lacking) const;
+  /// Vertices to add, best first. \param lacking are vertices: other polygons than the worst are tried too,
+  /// \param at_any_cost then also what gains nothing
+  std::vector<PatchMove> additions(const PatchMesh& mesh, bool lacking, bool at_any_cost) const;
   /// Vertices to add where a sample is farther than this, best first.
   std::vector<PatchMove> additions_beyond(const PatchMesh& mesh, double distance) const;
 
