@@ -107,3 +107,28 @@ TEST_CASE("where triangles are asked for, no quads come of it", "[target]") {
   const auto made = remeshed("cube", options);
   for (const auto f : made.result.faces()) REQUIRE(f.valence() == 3);
 }
+
+// A face of a box is divided along and across: three vertices in one corner, and sides that lie on one
+// another.
+TEST_CASE("faces of a box that only touch are divided alike where they do", "[target]") {
+  OpenMesh::TriMesh box;
+  const auto square = [&](const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
+    const auto v = box.add_vertex(a), w = box.add_vertex(b), x = box.add_vertex(c), y = box.add_vertex(d);
+    box.add_face(v, w, x);
+    box.add_face(v, x, y);
+  };
+  const auto at = [](int i) { return Vec3d(i & 1, (i & 2) ? 1.7 : 0, (i & 4) ? 2.9 : 0); };
+  square(at(0), at(2), at(3), at(1));
+  square(at(4), at(5), at(7), at(6));
+  square(at(0), at(1), at(5), at(4));
+  square(at(2), at(6), at(7), at(3));
+  square(at(0), at(4), at(6), at(2));
+  square(at(1), at(3), at(7), at(5));
+  RemeshOptions options;
+  options.target_faces = 500;
+  auto result = remesh(box, options);
+  const Comparison c = compare(box, result);
+  CHECK(std::abs(static_cast<double>(c.faces) / 500 - 1) < 0.1);
+  CHECK(c.t_junctions == 0);
+  CHECK(c.quad_fraction == 1);
+}

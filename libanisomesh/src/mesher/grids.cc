@@ -51,6 +51,13 @@ struct ResultProperties {
   OpenMesh::EPropHandleT<int> edge_kind;
 };
 
+/// The same to the last bit from the one end and from the other.
+Vec3d between(const Vec3d& a, const Vec3d& b, size_t i, size_t parts) {
+  if (b < a) return between(b, a, parts - i, parts);
+  const double t = static_cast<double>(i) / static_cast<double>(parts);
+  return (1 - t) * a + t * b;
+}
+
 /// The mesh with its sides divided. Sources of new vertices are those of a corner, to be looked for from
 /// there.
 class Divided {
@@ -83,8 +90,7 @@ class Divided {
     on.push_back(e.v0());
     const auto of_kind = static_cast<EdgeKind>(mesh_.property(of_.edge_kind, e));
     for (size_t i = 1; i < parts; ++i) {
-      const double t = static_cast<double>(i) / static_cast<double>(parts);
-      on.push_back(add((1 - t) * mesh_.point(e.v0()) + t * mesh_.point(e.v1()),
+      on.push_back(add(between(mesh_.point(e.v0()), mesh_.point(e.v1()), i, parts),
                        static_cast<int>(origin_on(of_kind)), 2 * i < parts ? e.v0() : e.v1()));
     }
     on.push_back(e.v1());

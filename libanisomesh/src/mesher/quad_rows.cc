@@ -1,7 +1,9 @@
 #include "mesher/quad_rows.hh"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <queue>
 #include <utility>
 
@@ -9,7 +11,7 @@ namespace anisomesh::detail {
 
 namespace {
 
-using OpenMesh::FaceHandle, OpenMesh::PolyMesh;
+using OpenMesh::FaceHandle, OpenMesh::PolyMesh, OpenMesh::Vec3d;
 
 /// Logarithms of lengths that are the same but for rounding.
 constexpr double kSame = 1e-6;
@@ -48,6 +50,15 @@ QuadRows::QuadRows(const PolyMesh& mesh) : mesh_(mesh), sets_(mesh.n_edges()) {
     const auto h = f.halfedge();
     sets_.join(at(h.edge().idx()), at(h.next().next().edge().idx()));
     sets_.join(at(h.next().edge().idx()), at(h.prev().edge().idx()));
+  }
+  // Sides of the border that lie on one another, as at a slit or a seam of texture, are divided alike.
+  std::map<std::array<Vec3d, 2>, OpenMesh::EdgeHandle> on_border;
+  for (const auto e : mesh.edges()) {
+    if (!e.is_boundary()) continue;
+    std::array ends{mesh.point(e.v0()), mesh.point(e.v1())};
+    if (ends[1] < ends[0]) std::swap(ends[0], ends[1]);
+    const auto [there, is_first] = on_border.emplace(ends, e);
+    if (!is_first) sets_.join(at(e.idx()), at(there->second.idx()));
   }
   parts_.assign(mesh.n_edges(), 1);
   length_.assign(mesh.n_edges(), 0);
