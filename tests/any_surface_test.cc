@@ -183,6 +183,27 @@ TEST_CASE("closed shapes of every kind are remeshed in the surface domain") {
     CHECK(c.quad_fraction == 1);
     CHECK(c.two_sided.hausdorff < 1e-9);
   }
+  // Ten polygons were made of them: the diagonals of faces were looked for on other sides of the edges.
+  SECTION("and one of twelve triangles, however small epsilon is") {
+    OpenMesh::TriMesh mesh;
+    std::vector<OpenMesh::VertexHandle> v;
+    for (int i = 0; i < 8; ++i)
+      v.push_back(mesh.add_vertex({i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0}));
+    const std::vector<std::array<int, 4>> sides = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                                   {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    const auto at = [&](int i) { return v[static_cast<size_t>(i)]; };
+    for (const auto& s : sides) {
+      mesh.add_face(at(s[0]), at(s[1]), at(s[2]));
+      mesh.add_face(at(s[0]), at(s[2]), at(s[3]));
+    }
+    RemeshOptions options;
+    options.features.angle_degrees = 40;
+    options.fit.enabled = false;
+    options.trace.density.epsilon_fraction = GENERATE(0.1, 0.01, 1e-4);
+    auto result = remesh(mesh, options);
+    CHECK(result.n_faces() == 6);
+    CHECK(compared(mesh, result).quad_fraction == 1);
+  }
 }
 
 TEST_CASE("the surface domain does on a disc what the plane does") {

@@ -19,7 +19,6 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 constexpr int pieces = 2;  // samples on an edge of the input, beside those that are only watched
 constexpr double watched = 8, most_watched = 64;  // places for each side of the result, and at all
-constexpr int halvings = 8;                       // of the way between two places
 
 }  // namespace
 
@@ -94,12 +93,16 @@ FitCurves::Sample FitCurves::nearest(const Sample& sample, const std::vector<Vec
 }
 
 // Between two places the distance from each side is convex, so that the farthest is where the nearest side
-// changes: before the vertex that the sides share.
-double FitCurves::farthest_between(Sample from, Sample to, const std::vector<Vec3d>& points) const {
-  for (int i = 0; i < halvings && from.side != to.side; ++i) {
+// changes: before the vertex that the sides share, or twice where a short side lies between.
+double FitCurves::farthest_between(Sample from, Sample to, const std::vector<Vec3d>& points,
+                                   int halvings) const {
+  for (; halvings > 0 && from.side != to.side; --halvings) {
     Sample middle = from;
     middle.place = 0.5 * (from.place + to.place);
     middle = nearest(middle, points);
+    if (middle.side != from.side && middle.side != to.side)
+      return std::max(farthest_between(from, middle, points, halvings - 1),
+                      farthest_between(middle, to, points, halvings - 1));
     (middle.side == from.side ? from : to) = middle;
   }
   return std::max(from.distance, to.distance);

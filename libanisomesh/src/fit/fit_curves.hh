@@ -34,7 +34,8 @@ class FitCurves {
  private:
   friend class FitStrays;
   void look(const Vec3d& place, int side, const std::vector<Vec3d>& points, Sample& best) const;
-  double farthest_between(Sample from, Sample to, const std::vector<Vec3d>& points) const;
+  /// \param halvings of the way at most
+  double farthest_between(Sample from, Sample to, const std::vector<Vec3d>& points, int halvings = 8) const;
   Sample nearest(const Sample& sample, const std::vector<Vec3d>& points) const;
   const std::vector<int>& sides_at(int vertex) const { return sides_at_[static_cast<size_t>(vertex)]; }
 

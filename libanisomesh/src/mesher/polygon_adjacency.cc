@@ -150,6 +150,8 @@ RegionCorners PolygonAdjacency::around(const std::vector<Polygon>& polygons, con
         cross(corners.position[i] - corners.position[0], corners.position[i + 1] - corners.position[0]);
   if (!network.planar) {
     corners.on_surface = true;
+    for (size_t i = 0, n = ring.size(); i < n; ++i)
+      corners.set_face(network, ring[(i + n - 1) % n], static_cast<int>(i), ring[(i + 1) % n]);
     corners.take_normals_of(in_corners(corners, polygons, path));
     lay_out(corners);
     forbid_other_sides(corners, polygons, path);

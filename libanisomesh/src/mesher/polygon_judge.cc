@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "network/feature_sides.hh"
 #include "surface/rounding.hh"
 
 namespace anisomesh::detail {
@@ -64,6 +65,11 @@ void RegionCorners::add(const NetworkGraph& network, int n) {
   position.push_back(network.positions[at(n)]);
   face.push_back(network.points[at(n)].face);
   corner_normal.push_back(network.touches(n, EdgeKind::feature) ? Vec3d(0, 0, 0) : network.normals[at(n)]);
+}
+
+void RegionCorners::set_face(const NetworkGraph& network, int before, int corner, int after) {
+  if (network.feature_sides)
+    face[at(corner)] = network.feature_sides->face_between(network, before, node[at(corner)], after);
 }
 
 PolygonJudge::PolygonJudge(const SurfaceRef& surface, const SurfaceLocator& locator,

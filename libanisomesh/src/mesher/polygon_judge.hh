@@ -17,7 +17,7 @@ struct RegionCorners {
   std::vector<int> node;  ///< of the network graph, counter-clockwise in (u, v)
   std::vector<Vec2d> uv;
   std::vector<Vec3d> position;
-  std::vector<OpenMesh::FaceHandle> face;  ///< of the surface point
+  std::vector<OpenMesh::FaceHandle> face;  ///< of the surface point; beside features one in the region
   std::vector<Vec3d> corner_normal;        ///< of the surface there; zero on a feature, where it has none
   size_t loop = 0;                         ///< so many of them, the first, go around it
   Vec3d normal{0, 0, 0};                   ///< unit, of the surface inside the region
@@ -26,6 +26,8 @@ struct RegionCorners {
   std::vector<std::array<int, 2>> forbidden;
   size_t size() const { return node.size(); }
   void add(const NetworkGraph& network, int n);
+  /// Finds the face of a corner on a feature, given the nodes beside it along the border of the region.
+  void set_face(const NetworkGraph& network, int before, int corner, int after);
   void forbid(int a, int b) { forbidden.push_back({std::min(a, b), std::max(a, b)}); }
   bool is_forbidden(int a, int b) const {
     return std::find(forbidden.begin(), forbidden.end(),

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <set>
 
 #include "mesher/region_layout.hh"
+#include "network/feature_sides.hh"
 
 namespace anisomesh::detail {
 
@@ -37,7 +40,8 @@ class Extractor {
   Region region_of(const Cell& cell, const std::vector<std::array<int, 2>>& taken = {}) const;
   void settle_chords(const std::vector<Cell>& cells, std::vector<Region>& regions,
                      std::vector<RegionPolygons>& results) const;
-  void set_normal(const Cell& cell, Vec3d& normal) const;
+  void find_faces(const Cell& cell, RegionCorners& corners) const;
+  void set_normal(Region& region) const;
   void append(const Region& region, RegionPolygons& result, PolygonSet& set);
 
   NetworkGraph& network_;
@@ -59,22 +63,38 @@ std::vector<int> border_of(const Cell& cell, bool& simple) {
   return nodes;
 }
 
+// At corners on features, where the surface goes on beyond the cell; none where the cell is twice at a node.
+void Extractor::find_faces(const Cell& cell, RegionCorners& corners) const {
+  std::map<int, std::vector<int>> before, after;
+  for (const auto& [n, m] : cell.sides) {
+    after[n].push_back(m);
+    before[m].push_back(n);
+  }
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const auto in = before.find(corners.node[i]), out = after.find(corners.node[i]);
+    if (in == before.end() || out == after.end() || in->second.size() != 1 || out->second.size() != 1)
+      continue;
+    corners.set_face(network_, in->second[0], static_cast<int>(i), out->second[0]);
+  }
+}
+
 // That of the surface in the middle of the triangles, by their size in space.
-void Extractor::set_normal(const Cell& cell, Vec3d& normal) const {
-  for (const auto& node : cell.triangles) {
+void Extractor::set_normal(Region& region) const {
+  RegionCorners& corners = region.corners;
+  for (const auto& t : region.triangles) {
     Vec2d middle(0, 0);
     Vec3d place(0, 0, 0);
-    for (const int n : node) {
-      middle += network_.graph.uv(n) / 3;
-      place += network_.positions[at(n)] / 3;
+    for (const int i : t) {
+      middle += corners.uv[at(i)] / 3;
+      place += corners.position[at(i)] / 3;
     }
-    const Vec3d &a = network_.positions[at(node[0])], &b = network_.positions[at(node[1])],
-                &c = network_.positions[at(node[2])];
-    normal +=
-        cross(b - a, c - a).norm() * judge_.surface_normal(middle, place, network_.points[at(node[0])].face);
+    const Vec3d &a = corners.position[at(t[0])], &b = corners.position[at(t[1])],
+                &c = corners.position[at(t[2])];
+    corners.normal +=
+        cross(b - a, c - a).norm() * judge_.surface_normal(middle, place, corners.face[at(t[0])]);
   }
-  const double length = normal.norm();
-  if (length > 0) normal /= length;
+  const double length = corners.normal.norm();
+  if (length > 0) corners.normal /= length;
 }
 
 // \param taken pairs of corners that another cell has joined
@@ -108,7 +128,8 @@ Region Extractor::region_of(const Cell& cell, const std::vector<std::array<int, 
   if (!network_.share.empty())
     for (const int n : region.corners.node) region.share = std::min(region.share, network_.share[at(n)]);
   region.probes = cell.probes;
-  set_normal(cell, region.corners.normal);
+  if (!network_.planar) find_faces(cell, region.corners);
+  set_normal(region);
   if (!network_.planar) {
     for (const auto& pair : cell.forbidden) region.corners.forbid(corner(pair[0]), corner(pair[1]));
     for (const auto& pair : taken) region.corners.forbid(pair[0], pair[1]);
@@ -182,6 +203,7 @@ void Extractor::append(const Region& region, RegionPolygons& result, PolygonSet&
 PolygonSet extract_polygons(NetworkGraph& network, std::vector<Cell> cells, const SurfaceRef& surface,
                             const SurfaceNormals& normals, const PolygonJudge& judge,
                             const RegionOptions& options) {
+  if (!network.planar) network.feature_sides = std::make_shared<const FeatureSides>(surface, network);
   return Extractor(network, surface, normals, judge, options).run(std::move(cells));
 }
 

@@ -1,6 +1,7 @@
 // The lines, samples, features and the border of a surface as one planar graph. [ACDLD03, section 4.1]
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "anisomesh/lines.hh"
@@ -10,6 +11,8 @@
 #include "surface/surface_normals.hh"
 
 namespace anisomesh::detail {
+
+class FeatureSides;
 
 /// Where no more than this share of the tolerances holds, samples and vertices of the input stay where they
 /// are: the last thing that is tried for sound polygons.
@@ -25,6 +28,7 @@ struct NetworkGraph {
   std::vector<Origin> origins;       ///< of each node
   std::vector<char> fixed;           ///< of each node: not to be removed (corners, isotropic samples)
   std::vector<double> share;         ///< of the tolerances that holds at each node; empty: all of them
+  std::shared_ptr<const FeatureSides> feature_sides;  ///< once there are cells; none in the plane
   size_t crossings = 0;
 
   /// Whether an edge of that kind ends at a node.
