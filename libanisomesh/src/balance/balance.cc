@@ -38,7 +38,7 @@ constexpr double exact_rms = 1e-9;
 /// Taken out at once where there are far too many, those that cost least then; and what a round must take out
 /// of all for another to follow.
 constexpr double most_at_once = 0.15, least_at_once = 0.02;
-constexpr int trials = 4;     // of a round of moves, each without those that have broken a polygon
+constexpr int trials = 12;    // of a round of moves, each without those that have broken a polygon
 constexpr double sure = 1.2;  // an exchange must gain this many times what it costs
 /// Where features that were asked for take more than this share of the vertices that are wanted, the others
 /// go only as long as one costs no more than so many mean errors of a polygon: they tell all of the shape.
