@@ -119,6 +119,7 @@ FaceHandle FeatureSides::face_between(const NetworkGraph& network, int before, i
                            (fence_in ? in | side.spokes.back() : cosine_to(in, side));
     if (cosines > most + kTie) most = cosines, best = &side;
   }
+  if (!best) return known;
   if (std::find(best->faces.begin(), best->faces.end(), known) != best->faces.end()) return known;
   return fence_out || !fence_in ? best->faces.front() : best->faces.back();
 }
