@@ -97,6 +97,7 @@ bool Decimator::passes_through(int node) const {
 
 // The first two rules: a line that ends in the middle of a cell is cut back to its last crossing, and so on.
 void Decimator::trim() {
+  std::vector<int> dropped;
   for (int start = 0; start < static_cast<int>(graph_.n_nodes()); ++start) {
     int node = start;
     while (graph_.degree(node) == 1 && !network_.fixed[at(node)]) {
@@ -104,12 +105,13 @@ void Decimator::trim() {
       if (!is_line(graph_.edge(edge).kind)) break;
       const int next = graph_.other(edge, node);
       graph_.remove_edge(edge);
-      embedding_.drop(node);
+      dropped.push_back(node);
       ++report_.trimmed;
       node = next;
     }
-    if (graph_.degree(node) == 0 && !network_.fixed[at(node)]) embedding_.drop(node);
+    if (graph_.degree(node) == 0 && !network_.fixed[at(node)]) dropped.push_back(node);
   }
+  embedding_.drop(dropped);
 }
 
 // The chain of pass-through nodes that leaves `node` by `edge`, with both its ends.

@@ -13,8 +13,8 @@ class Embedding {
   virtual bool straighten(int a, int node, int b) = 0;
   /// Whether the edges from `gone` to `others` may end in `keep` instead.
   virtual bool contract(int keep, int gone, const std::vector<int>& others) = 0;
-  /// No edge leads to the node any more, and it need not stay.
-  virtual void drop(int node) = 0;
+  /// No edge leads to these nodes any more, and they need not stay.
+  virtual void drop(const std::vector<int>& nodes) = 0;
 };
 
 }  // namespace anisomesh::detail

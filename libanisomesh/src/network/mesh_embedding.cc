@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <unordered_set>
 
 #include "anisomesh/errors.hh"
 #include "surface/rounding.hh"
@@ -28,6 +29,7 @@ constexpr double pi = 3.14159265358979323846;
 constexpr int flip_passes = 50, vertices_a_breath = 256;
 constexpr unsigned large_star =
     24;  // what has taken so many in waits, or it would take the next one in, and the next
+constexpr unsigned huge_star = 96;  // likewise, where lines are taken out
 constexpr size_t most_judged = 64;   // neighbours, by what each would turn over: the nearest
 constexpr size_t nearest_tried = 6;  // neighbours that a vertex may be moved to, unless nothing else is left
 
@@ -194,9 +196,26 @@ bool MeshEmbedding::contract(int keep, int gone, const std::vector<int>&) {
   return collapse(VertexHandle(gone), VertexHandle(keep), Care::turning);
 }
 
-void MeshEmbedding::drop(int node) {
-  const VertexHandle v(node);
-  if (!mesh_.status(v).deleted() && !mesh_.is_isolated(v)) take_out(v, Care::turning);
+// The nodes of a line lie in a row, across many triangles where these are thin: one after the other they
+// would all end in the last, whose star would hold the whole row. So what has a large star waits for a pass.
+void MeshEmbedding::drop(const std::vector<int>& nodes) {
+  std::vector<int> waiting = nodes;
+  std::unordered_set<int> touched;
+  while (!waiting.empty()) {
+    std::vector<int> left;
+    touched.clear();
+    for (const int n : waiting) {
+      const VertexHandle v(n);
+      if (mesh_.status(v).deleted() || mesh_.is_isolated(v)) continue;
+      if (touched.count(n) && mesh_.valence(v) > huge_star) {
+        left.push_back(n);
+        continue;
+      }
+      const std::vector<int> around = neighbours(n);
+      if (take_out(v, Care::turning)) touched.insert(around.begin(), around.end());
+    }
+    waiting = std::move(left);
+  }
 }
 
 bool MeshEmbedding::take_out(VertexHandle v, Care care) {

@@ -31,7 +31,7 @@ class MeshEmbedding final : public Embedding {
 
   bool straighten(int a, int node, int b) override;
   bool contract(int keep, int gone, const std::vector<int>& others) override;
-  void drop(int node) override;
+  void drop(const std::vector<int>& nodes) override;
 
   /// Takes out the nodes that no edge of the network leads to and that need not stay, as far as the topology
   /// allows and what is pinned stays within the tolerance (model units) of the triangles; but no vertex of

@@ -23,7 +23,9 @@ class PlaneEmbedding final : public Embedding {
     index_.remove(gone);
     return true;
   }
-  void drop(int node) override { index_.remove(node); }
+  void drop(const std::vector<int>& nodes) override {
+    for (const int node : nodes) index_.remove(node);
+  }
 
  private:
   static std::vector<Vec2d> places(const NetworkGraph& network) {
