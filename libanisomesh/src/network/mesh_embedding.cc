@@ -29,7 +29,7 @@ constexpr double pi = 3.14159265358979323846;
 constexpr int flip_passes = 50, vertices_a_breath = 256;
 constexpr unsigned large_star =
     24;  // what has taken so many in waits, or it would take the next one in, and the next
-constexpr unsigned huge_star = 96;  // likewise, where lines are taken out
+constexpr unsigned huge_star = 96;   // likewise, where lines are taken out
 constexpr size_t most_judged = 64;   // neighbours, by what each would turn over: the nearest
 constexpr size_t nearest_tried = 6;  // neighbours that a vertex may be moved to, unless nothing else is left
 
