@@ -55,6 +55,24 @@ Vec3d around(double u, double radius, double z) {
   return {radius * std::cos(2 * pi * u), radius * std::sin(2 * pi * u), z};
 }
 
+/// Two squares of n by n and m by m, one as much higher than the other; in between a strip of slivers.
+Soup step(int n, int m, double height) {
+  Soup soup = sheet(n, n, false, false, [](double u, double v) { return Vec3d(u - 1, v, 0); });
+  const Soup other = sheet(m, m, false, false, [height](double u, double v) { return Vec3d(u, v, height); });
+  const int first = n * (n + 1), second = static_cast<int>(soup.points.size());
+  soup.points.insert(soup.points.end(), other.points.begin(), other.points.end());
+  for (const auto& f : other.faces) soup.faces.push_back({f[0] + second, f[1] + second, f[2] + second});
+  for (int i = 0, k = 0; i < n || k < m;)
+    if (k == m || (i < n && (i + 1) * m <= (k + 1) * n)) {
+      soup.faces.push_back({first + i, second + k, first + i + 1});
+      ++i;
+    } else {
+      soup.faces.push_back({first + i, second + k, second + k + 1});
+      ++k;
+    }
+  return soup;
+}
+
 /// A double cone whose tips have n triangles each.
 Soup spindle(int n) {
   Soup soup;
@@ -346,5 +364,20 @@ TEST_CASE("the walls of a thin ring stay where they are", "[ugly]") {
     check_sound(c);
     CHECK(c.self_intersecting_faces == 0);
     CHECK(c.two_sided.hausdorff < 1e-6);
+  }
+}
+
+TEST_CASE("where nothing coarser is sound the triangles of the input are kept", "[ugly]") {
+  RemeshOptions options;
+  options.target_faces = 60;
+  for (const double height : {1e-7, 1e-8}) {  // were refused
+    CAPTURE(height);
+    auto mesh = step(10, 10, height).read();
+    auto result = remesh(mesh, options);
+    const auto c = compare(mesh, result);
+    CHECK(c.same_topology);
+    CHECK(c.non_manifold_edges + c.non_manifold_vertices == 0);
+    CHECK(c.folded_faces + c.concave_faces + c.t_junctions == 0);
+    CHECK(c.degenerate_faces <= 20);  // the strip has as many
   }
 }

@@ -11,6 +11,7 @@
 #include "anisomesh/properties.hh"
 #include "mesher/grids.hh"
 #include "mesher/joining.hh"
+#include "mesher/more_care.hh"
 #include "mesher/polygon_attempt.hh"
 #include "mesher/polygon_output.hh"
 #include "mesher/polygons.hh"
@@ -18,7 +19,6 @@
 #include "mesher/soundness.hh"
 #include "mesher/upright_quads.hh"
 #include "network/drawing.hh"
-#include "numerics/bvh.hh"
 #include "prepare/feature_tolerance.hh"
 #include "surface/canonical_copy.hh"
 #include "surface/recorded.hh"
@@ -70,66 +70,12 @@ double feature_tolerance_of(const SurfaceRef& surface, const MeshOptions& option
 // Polygons that would be folded, concave or without area are given other chances with more samples around
 // them.
 constexpr size_t max_retries = 8;
-constexpr size_t patience = 4;  // retries, before vertices are given up for sound polygons
+constexpr size_t max_phases = 6;  // of so many retries, each with more of the input's triangles kept
 // Times the tolerance of features: how far cells beside them may be from the surface, where epsilon grows
 // since features alone are more than what is wanted, and what the judge takes for as far.
 constexpr double cells_at_features = 10, judged_at_features = 5;
 constexpr double tiny = 0.05;            // of epsilon: no edge need be as short
 constexpr double widest_merge = 0.0125;  // of the extent: chains that only bend within a share of infinity
-constexpr double around = 1.5;           // such a polygon: times its width
-
-// What is around a polygon: as far from it as it is wide, but for slivers, so that one along a whole side of
-// a part does not concern all of it; these farther each time they are met.
-class Surroundings {
- public:
-  Surroundings(const std::vector<int>& polygon, const NetworkGraph& network, double least_reach) {
-    for (const int n : polygon) corners_.push_back(network.positions[at(n)]);
-    for (const Vec3d& p : corners_) middle_ += p / static_cast<double>(corners_.size());
-    double diameter = 0;
-    Vec3d area(0, 0, 0);
-    for (size_t i = 0; i < corners_.size(); ++i) {
-      radius_ = std::max(radius_, (corners_[i] - middle_).norm());
-      if (i > 1) area += cross(corners_[i - 1] - corners_[0], corners_[i] - corners_[0]);
-      for (size_t k = 0; k < i; ++k) diameter = std::max(diameter, (corners_[i] - corners_[k]).norm());
-    }
-    if (diameter > 0)
-      reach_ = around * std::min(diameter, std::max(area.norm() / diameter, least_reach * diameter));
-  }
-
-  bool include(const Vec3d& place) const {
-    if ((place - middle_).norm() > radius_ + reach_) return false;
-    for (size_t i = 1; i + 1 < corners_.size(); ++i) {
-      const Vec3d &a = corners_[0], &b = corners_[i], &c = corners_[i + 1];
-      const Vec3d w = detail::closest_barycentric(place, a, b, c);
-      if ((w[0] * a + w[1] * b + w[2] * c - place).norm() <= reach_) return true;
-    }
-    return false;
-  }
-
- private:
-  std::vector<Vec3d> corners_;
-  Vec3d middle_{0, 0, 0};
-  double radius_ = 0, reach_ = 0;
-};
-
-// Halves the share of the tolerances that holds near some polygons. Isotropic samples that no tolerance moves
-// need not stay any longer.
-void take_more_care(const std::vector<std::vector<int>>& polygons, const NetworkGraph& network,
-                    size_t retries, NetworkGraph& start) {
-  if (retries >= patience)
-    for (const auto& polygon : polygons)
-      for (const int n : polygon)
-        if (at(n) < start.fixed.size() && start.origins[at(n)] == Origin::isotropic) start.fixed[at(n)] = 0;
-  if (start.share.empty()) start.share.assign(start.positions.size(), 1);
-  std::vector<char> near(start.share.size(), 0);
-  const double least_reach = std::ldexp(1.0, static_cast<int>(retries) - static_cast<int>(patience));
-  for (const auto& polygon : polygons) {
-    const Surroundings surroundings(polygon, network, least_reach);
-    for (size_t n = 0; n < near.size(); ++n) near[n] |= surroundings.include(start.positions[n]);
-  }
-  for (size_t n = 0; n < near.size(); ++n)
-    if (near[n]) start.share[n] /= 2;
-}
 
 [[noreturn]] void refuse(const std::vector<int>& polygon, const NetworkGraph& network, size_t count,
                          const SurfaceRef& surface) {
@@ -236,6 +182,8 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
   NetworkGraph network, start = drawing->network();
   std::vector<std::vector<int>> polygons;
   std::optional<detail::ReferenceSurface> reference;
+  std::vector<char> kept_faces;
+  size_t phase = 1, retries = 0;  // in this phase
   while (true) {
     network = start;
     detail::DecimationReport decimated;
@@ -257,12 +205,12 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
     seams.zip(polygons, network, normals, judge, region_options.partition);
     detail::Soundness soundness(surface, drawing->locator(), judge, options.convex);
     soundness.require_topology(polygons);
-    auto unsound = soundness.repair(polygons, network, options.max_degree, local.retries >= patience);
+    auto unsound = soundness.repair(polygons, network, options.max_degree, retries >= detail::patience);
     local.polygon_seconds += stopwatch.lap();
     report_progress(progress, 0.8);
-    if (unsound.empty() && local.retries < patience) unsound = soundness.coincident(polygons, network);
+    if (unsound.empty() && retries < detail::patience) unsound = soundness.coincident(polygons, network);
     // What is to be fitted is judged so when it has been.
-    if (unsound.empty() && !given.for_fit && local.retries < patience) {
+    if (unsound.empty() && !given.for_fit && retries < detail::patience) {
       if (!reference) reference.emplace(surface);
       unsound = soundness.folded(polygons, network, *reference);
     }
@@ -275,8 +223,16 @@ detail::PolygonAttempt detail::attempt_polygons(const SurfaceRef& surface, const
     }
     ++local.retries;
     if (report) *report = local;  // for those who hear of no more than a refusal
-    if (local.retries > max_retries) refuse(unsound.front(), network, unsound.size(), surface);
-    take_more_care(unsound, network, local.retries, start);
+    if (++retries <= max_retries) {
+      detail::take_more_care(unsound, network, retries, start);
+      continue;
+    }
+    if (phase++ == max_phases ||
+        !detail::keep_triangles_at(unsound, network, surface, drawing->locator(), kept_faces) ||
+        !drawing->keep_faces(kept_faces))
+      refuse(unsound.front(), network, unsound.size(), surface);
+    start = drawing->network();
+    retries = 0;
   }
   PolygonAttempt done{detail::make_mesh(network, polygons), true};
   local.polygon_seconds += stopwatch.lap();

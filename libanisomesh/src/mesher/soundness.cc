@@ -214,19 +214,31 @@ bool Soundness::is_folded(const Polygon& polygon, const NetworkGraph& network, c
 
 // A triangle of the input is as sound as the input is.
 bool Soundness::is_of_input(const Polygon& polygon, const NetworkGraph& network) const {
-  if (polygon.size() != 3) return false;
-  std::array<OpenMesh::VertexHandle, 3> vertex;
-  for (size_t i = 0; i < 3; ++i) {
-    const SurfacePoint& point = network.points[at(polygon[i])];
+  return polygon.size() == 3 && is_divided_of_input(polygon, network);
+}
+
+// Likewise with more vertices on its sides, as where another border lies on one of them.
+bool Soundness::is_divided_of_input(const Polygon& polygon, const NetworkGraph& network) const {
+  std::vector<OpenMesh::VertexHandle> vertex;
+  std::vector<OpenMesh::FaceHandle> divided;
+  for (const int n : polygon) {
+    const SurfacePoint& point = network.points[at(n)];
     const auto corners = surface_.corners(point.face);
-    for (size_t k = 0; k < 3; ++k)
-      if (point.barycentric[k] == 1) vertex[i] = corners.vertex[k];
-    if (!vertex[i].is_valid()) return false;
+    const auto& b = point.barycentric;
+    const size_t corner = b[0] == 1 ? 0 : b[1] == 1 ? 1 : b[2] == 1 ? 2 : 3;
+    if (corner < 3)
+      vertex.push_back(corners.vertex[corner]);
+    else if (b[0] == 0 || b[1] == 0 || b[2] == 0)
+      divided.push_back(point.face);
+    else
+      return false;
   }
+  if (vertex.size() != 3) return false;
   const auto& mesh = surface_.connectivity();
   const auto side = mesh.find_halfedge(vertex[0], vertex[1]);
   return side.is_valid() && !mesh.is_boundary(side) &&
-         mesh.to_vertex_handle(mesh.next_halfedge_handle(side)) == vertex[2];
+         mesh.to_vertex_handle(mesh.next_halfedge_handle(side)) == vertex[2] &&
+         std::all_of(divided.begin(), divided.end(), [&](auto f) { return f == mesh.face_handle(side); });
 }
 
 bool Soundness::is_sound(const Polygon& polygon, const NetworkGraph& network) const {
@@ -268,7 +280,9 @@ std::vector<int> Soundness::unsound(const std::vector<Polygon>& polygons, const 
     }
   std::vector<int> result;
   for (size_t p = 0; p < polygons.size(); ++p)
-    if (bad[p] && !is_of_input(polygons[p], network)) result.push_back(static_cast<int>(p));
+    if (bad[p] &&
+        !(or_touching ? is_of_input(polygons[p], network) : is_divided_of_input(polygons[p], network)))
+      result.push_back(static_cast<int>(p));
   return result;
 }
 

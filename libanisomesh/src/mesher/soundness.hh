@@ -36,6 +36,7 @@ class Soundness {
 
  private:
   bool is_of_input(const std::vector<int>& polygon, const NetworkGraph& network) const;
+  bool is_divided_of_input(const std::vector<int>& polygon, const NetworkGraph& network) const;
   bool is_sound(const std::vector<int>& polygon, const NetworkGraph& network) const;
   bool is_folded(const std::vector<int>& polygon, const NetworkGraph& network, const Vec3d& normal) const;
   struct Place {

@@ -23,6 +23,7 @@ class PlaneDrawing final : public Drawing {
         network_(arrange_network(surface, locator_, normals, lines, corner_angle)) {}
   const SurfaceLocator& locator() const override { return locator_; }
   const NetworkGraph& network() const override { return network_; }
+  bool keep_faces(const std::vector<char>&) override { return false; }
   std::vector<Cell> cells(NetworkGraph& network, const DecimationOptions& options, bool probes,
                           DecimationReport& report) const override {
     PlaneEmbedding embedding(network);
@@ -41,20 +42,21 @@ class SurfaceDrawing final : public Drawing {
   SurfaceDrawing(const SurfaceRef& surface, const SurfaceNormals& normals, const LineNetwork& lines,
                  double corner_angle, double tolerance, const std::function<void()>& breathe)
       : surface_(surface),
+        normals_(normals),
         lines_(lines),
         corner_angle_(corner_angle),
         locator_(surface),
         tolerance_(tolerance),
         breathe_(breathe) {
-    const Overlay overlay = overlay_lines(surface, lines, corner_angle);
-    breathe();
-    network_ = network_of(surface, normals, overlay);
-    breathe();
-    embedding_ = std::make_unique<MeshEmbedding>(surface, overlay, network_);
-    embedding_->coarsen(network_, tolerance, breathe);
+    draw();
   }
   const SurfaceLocator& locator() const override { return locator_; }
   const NetworkGraph& network() const override { return network_; }
+  bool keep_faces(const std::vector<char>& faces) override {
+    kept_faces_ = faces;
+    draw();
+    return true;
+  }
   std::vector<Cell> cells(NetworkGraph& network, const DecimationOptions& options, bool probes,
                           DecimationReport& report) const override {
     MeshEmbedding embedding = embedding_for(network);
@@ -65,18 +67,28 @@ class SurfaceDrawing final : public Drawing {
   }
 
  private:
+  void draw() {
+    const Overlay overlay = overlay_lines(surface_, lines_, corner_angle_, kept_faces_);
+    breathe_();
+    network_ = network_of(surface_, normals_, overlay);
+    breathe_();
+    embedding_ = std::make_unique<MeshEmbedding>(surface_, overlay, network_);
+    embedding_->coarsen(network_, tolerance_, breathe_);
+  }
   // Coarsened already, but for a network that is to keep vertices which have gone.
   MeshEmbedding embedding_for(const NetworkGraph& network) const {
     const auto is_kept = [](double share) { return share <= kept_share; };
     if (std::none_of(network.share.begin(), network.share.end(), is_kept)) return *embedding_;
-    MeshEmbedding embedding(surface_, overlay_lines(surface_, lines_, corner_angle_), network);
+    MeshEmbedding embedding(surface_, overlay_lines(surface_, lines_, corner_angle_, kept_faces_), network);
     embedding.coarsen(network, tolerance_, breathe_);
     return embedding;
   }
 
   const SurfaceRef& surface_;
+  const SurfaceNormals& normals_;
   const LineNetwork& lines_;
   double corner_angle_;
+  std::vector<char> kept_faces_;
   NearLocator locator_;
   double tolerance_;
   std::function<void()> breathe_;

@@ -15,6 +15,9 @@ class Drawing {
   virtual ~Drawing() = default;
   virtual const SurfaceLocator& locator() const = 0;
   virtual const NetworkGraph& network() const = 0;
+  /// Draws anew, without lines in some faces of the surface, which become cells as they are.
+  /// \param faces of the surface, by face \return false, and nothing changes, where that cannot be done
+  virtual bool keep_faces(const std::vector<char>& faces) = 0;
   /// Decimates a copy of the network. \return its cells
   virtual std::vector<Cell> cells(NetworkGraph& network, const DecimationOptions& options, bool probes,
                                   DecimationReport& report) const = 0;

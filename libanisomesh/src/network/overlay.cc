@@ -24,14 +24,20 @@ constexpr double edge_grid = 1 << 30, face_grid = 1ll << 40;
 
 class Drawing {
  public:
-  Drawing(const SurfaceRef& surface, const LineNetwork& lines, double corner_angle)
-      : surface_(surface), lines_(lines), corner_angle_(corner_angle), arrays_(surface) {}
+  Drawing(const SurfaceRef& surface, const LineNetwork& lines, double corner_angle,
+          const std::vector<char>& kept_faces)
+      : surface_(surface),
+        lines_(lines),
+        corner_angle_(corner_angle),
+        kept_faces_(kept_faces),
+        arrays_(surface) {}
 
   Overlay run() {
     add_vertices();
     draw_lines();
     for (const SurfacePoint& sample : lines_.isotropic_samples)
       node_at(place_of(arrays_, sample), Origin::isotropic, true);
+    if (!kept_faces_.empty()) clear_kept_faces();
     divide_faces();
     return std::move(overlay_);
   }
@@ -58,6 +64,8 @@ class Drawing {
   int add_node(const SurfacePoint& point, Origin origin, bool fixed);
   int node_on_edge(const EdgeCrossing& crossing, int face, Origin origin, bool fixed);
   int node_at(const Place& place, Origin origin, bool fixed);
+  bool is_kept(int face) const { return face >= 0 && !kept_faces_.empty() && kept_faces_[at(face)]; }
+  void clear_kept_faces();
   void divide_faces();
   void divide(int face, const Piece* begin, const Piece* end, const std::vector<int>& inside,
               Divided& result) const;
@@ -69,6 +77,7 @@ class Drawing {
   const SurfaceRef& surface_;
   const LineNetwork& lines_;
   double corner_angle_;
+  const std::vector<char>& kept_faces_;
   SurfaceArrays arrays_;
   Overlay overlay_;
   std::vector<Piece> pieces_;
@@ -190,12 +199,43 @@ void Drawing::draw_lines() {
 }
 
 int Drawing::kind_of_edge(int face, int side) const {
-  if (arrays_.neighbours[at(face)][at(side)] >= 0) return no_kind;
+  if (const int beyond = arrays_.neighbours[at(face)][at(side)]; beyond >= 0)
+    return is_kept(face) || is_kept(beyond) ? static_cast<int>(EdgeKind::conforming) : no_kind;
   const auto& mesh = surface_.connectivity();
   // The halfedge of a face ends in corner 0, so the one after it leaves corner 0.
   auto h = mesh.next_halfedge_handle(mesh.halfedge_handle(OpenMesh::FaceHandle(face)));
   for (int k = 0; k < side; ++k) h = mesh.next_halfedge_handle(h);
   return static_cast<int>(mesh.is_boundary(mesh.edge_handle(h)) ? EdgeKind::border : EdgeKind::feature);
+}
+
+// Of what lies in kept faces only their vertices are left; lines end before them.
+void Drawing::clear_kept_faces() {
+  std::vector<char> gone(overlay_.points.size(), 0);
+  for (int f = 0; f < arrays_.n_faces(); ++f) {
+    if (!is_kept(f)) continue;
+    const auto& corners = arrays_.corners[at(f)];
+    for (size_t k = 0; k < 3; ++k) {
+      const int a = corners[k], b = corners[(k + 1) % 3];
+      overlay_.fixed[at(a)] = 1;
+      if (overlay_.origins[at(a)] == Origin::isotropic) overlay_.origins[at(a)] = Origin::line;
+      const auto found = edge_nodes_.find(key_of(std::min(a, b), std::max(a, b)));
+      if (found == edge_nodes_.end()) continue;
+      for (const EdgeNode& n : found->second) gone[at(n.node)] = 1;
+      edge_nodes_.erase(found);
+    }
+  }
+  for (const auto& entry : face_nodes_)
+    if (is_kept(entry[0])) gone[at(entry[1])] = 1;
+  for (size_t n = 0; n < gone.size(); ++n)
+    if (gone[n]) overlay_.fixed[n] = 0;
+  const auto is_gone = [&](int n) { return gone[at(n)] != 0; };
+  pieces_.erase(
+      std::remove_if(pieces_.begin(), pieces_.end(),
+                     [&](const Piece& p) { return is_kept(p.face) || is_gone(p.a) || is_gone(p.b); }),
+      pieces_.end());
+  face_nodes_.erase(std::remove_if(face_nodes_.begin(), face_nodes_.end(),
+                                   [&](const auto& entry) { return is_gone(entry[1]); }),
+                    face_nodes_.end());
 }
 
 std::vector<Drawing::EdgeNode> Drawing::nodes_between(int a, int b) const {
@@ -331,8 +371,9 @@ void Drawing::divide_faces() {
 
 }  // namespace
 
-Overlay overlay_lines(const SurfaceRef& surface, const LineNetwork& lines, double corner_angle_degrees) {
-  return Drawing(surface, lines, corner_angle_degrees).run();
+Overlay overlay_lines(const SurfaceRef& surface, const LineNetwork& lines, double corner_angle_degrees,
+                      const std::vector<char>& kept_faces) {
+  return Drawing(surface, lines, corner_angle_degrees, kept_faces).run();
 }
 
 }  // namespace anisomesh::detail

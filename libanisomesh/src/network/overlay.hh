@@ -30,6 +30,9 @@ struct Overlay {
 
 /// Crossings are found once, by exact predicates in the barycentric coordinates of the triangle they lie in.
 /// A step of a line that no path leads along is left out.
-Overlay overlay_lines(const SurfaceRef& surface, const LineNetwork& lines, double corner_angle_degrees);
+/// \param kept_faces of the surface, by face: no line enters them nor ends on their edges, which are all
+/// drawn (as conforming, where they are no features) between vertices that stay; empty: none
+Overlay overlay_lines(const SurfaceRef& surface, const LineNetwork& lines, double corner_angle_degrees,
+                      const std::vector<char>& kept_faces = {});
 
 }  // namespace anisomesh::detail
