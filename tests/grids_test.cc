@@ -100,6 +100,24 @@ TEST_CASE("polygons that are no quads are divided too", "[target]") {
   for (const auto f : result.faces()) REQUIRE(f.valence() <= 4);
 }
 
+// Convex but for three degrees at one corner, which a single polygon may have: the rows of its grid would
+// cross there.
+TEST_CASE("a quad that turns in at a corner is cut there before it is divided", "[target]") {
+  OpenMesh::TriMesh mesh;
+  const auto a = mesh.add_vertex({0, 0, 0}), b = mesh.add_vertex({0.5, 0.012, 0}),
+             c = mesh.add_vertex({1, 0, 0}), d = mesh.add_vertex({0.5, 1, 0});
+  mesh.add_face(a, b, d);
+  mesh.add_face(b, c, d);
+  RemeshOptions options;
+  options.target_faces = 1000;
+  auto result = remesh(mesh, options);
+  const Comparison compared = compare(mesh, result);
+  check_sound(compared);
+  CHECK(compared.self_intersecting_faces == 0);
+  CHECK(std::abs(static_cast<double>(compared.faces) / 1000 - 1) < 0.1);
+  CHECK(compared.two_sided.hausdorff < 1e-9);
+}
+
 TEST_CASE("where triangles are asked for, no quads come of it", "[target]") {
   RemeshOptions options;
   options.target_faces = 300;

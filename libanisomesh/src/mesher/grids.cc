@@ -184,6 +184,30 @@ class Divided {
 
 size_t count_of(const PolyMesh& mesh, bool faces) { return faces ? mesh.n_faces() : mesh.n_vertices(); }
 
+/// A quad may turn in at a corner by a few degrees (PolygonJudge::is_convex()). As a polygon that does no
+/// harm, but the rows of its grid would cross there: it is cut from that corner to the one across.
+void cut_concave_quads(PolyMesh& mesh) {
+  const ResultProperties of(mesh);
+  const size_t n = mesh.n_faces();
+  for (size_t i = 0; i < n; ++i) {
+    const auto f = OpenMesh::make_smart(FaceHandle(static_cast<int>(i)), mesh);
+    if (f.valence() != 4) continue;
+    const Vec3d normal = mesh.calc_normal(f);
+    double least = -kSame;
+    OpenMesh::SmartHalfedgeHandle into;  // the corner that turns in most
+    for (const auto h : f.halfedges()) {
+      const Vec3d in = mesh.calc_edge_vector(h).normalized(),
+                  out = mesh.calc_edge_vector(h.next()).normalized();
+      const double turn = cross(in, out) | normal;
+      if (turn < least) least = turn, into = h;
+    }
+    if (!into.is_valid() || mesh.find_halfedge(into.to(), into.prev().from()).is_valid()) continue;
+    const auto cut = mesh.edge_handle(mesh.insert_edge(into, into.prev()));
+    mesh.property(of.edge_kind, cut) = static_cast<int>(EdgeKind::conforming);
+    mesh.status(cut).set_feature(false);
+  }
+}
+
 /// How far the corners of the quad that two triangles make are from right angles at most, radians; infinite
 /// where they make none that is convex and flat.
 double askew(const PolyMesh& mesh, HalfedgeHandle h) {
@@ -252,6 +276,7 @@ bool divide_into_grids(const SurfaceRef& surface, const MeshOptions& options, si
   if (static_cast<double>(count_of(result, by_faces)) >= (1 - kMet) * wanted) return false;
   const auto most = static_cast<size_t>(kMostAbove * wanted);
   PolyMesh fine = result;
+  cut_concave_quads(fine);
   pair_flat_triangles(fine);
   const auto divide = [&](auto choose) {
     QuadRows rows(fine);
